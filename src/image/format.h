@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+namespace strata::image {
+
+enum class Format { exr, png, tiff, jpeg };
+
+// By extension, in either case: .exr, .png, .tif, .tiff, .jpg, .jpeg. Throws ImageError for any other.
+Format format_of(const std::filesystem::path& path);
+
+// The format's name in OpenImageIO.
+const char* name_of(Format format);
+
+// Throws ImageError when a picture of this size (pixels) does not fit the format: JPEG ends at 65500 a side.
+void check_size(const std::filesystem::path& path, int width, int height);
+
+}  // namespace strata::image

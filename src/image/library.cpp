@@ -1,0 +1,12 @@
+#include "src/image/library.h"
+
+#include <OpenImageIO/imageio.h>
+
+namespace strata::image {
+
+void configure_library() {
+    [[maybe_unused]] static const bool once =
+        OIIO::attribute("debug", 0) && OIIO::attribute("exr_threads", -1) && OIIO::attribute("threads", 1);
+}
+
+}  // namespace strata::image

@@ -1,0 +1,121 @@
+#include "src/image/output_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+#include "src/image/format.h"
+#include "src/image/image_error.h"
+
+namespace strata::image {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+    throw ImageError(fmt::format("cannot write \"{}\": {}", path.string(), reason));
+}
+
+std::string system_reason(int error) {
+    return std::generic_category().message(error);
+}
+
+fs::path folder_of(const fs::path& path) {
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+// Where the bytes go: the end of a chain of symbolic links whose target exists, otherwise `path` itself.
+fs::path resolve_links(const fs::path& path) {
+    std::error_code error;
+    if (!fs::is_symlink(path, error)) return path;
+    const fs::path target = fs::canonical(path, error);
+    return error ? path : target;
+}
+
+// A new file of its own beside `path`; removed by the destructor unless it was renamed.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(const fs::path& path) : target_(path) {
+        static std::atomic<unsigned> counter{0};
+        do {
+            // Short, so that it fits wherever `path` does; hidden, so that a glob for pictures does not meet it.
+            name_ = folder_of(path) / fmt::format(".strata-{}-{}", ::getpid(), counter++);
+            descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        } while (descriptor_ < 0 && (errno == EEXIST || errno == EINTR));
+        if (descriptor_ < 0) fail(target_, fmt::format("no new file in its folder: {}", system_reason(errno)));
+    }
+
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+    ~TemporaryFile() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+        if (!renamed_) ::unlink(name_.c_str());
+    }
+
+    void write(std::span<const unsigned char> bytes) {
+        while (!bytes.empty()) {
+            const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+            if (written < 0 && errno == EINTR) continue;
+            if (written < 0) fail(target_, system_reason(errno));
+            bytes = bytes.subspan(static_cast<std::size_t>(written));
+        }
+    }
+
+    void rename_to_target() {
+        const int closed = ::close(descriptor_);
+        descriptor_ = -1;
+        // Some file systems report a full disk only here.
+        if (closed != 0) fail(target_, system_reason(errno));
+        if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, system_reason(errno));
+        renamed_ = true;
+    }
+
+  private:
+    fs::path target_;
+    fs::path name_;
+    int descriptor_ = -1;
+    bool renamed_ = false;
+};
+
+void check_target(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found) return;
+    if (error) fail(path, error.message());
+    if (fs::is_directory(status)) fail(path, "it is a folder");
+    if (!fs::is_regular_file(status)) fail(path, "it is not a regular file");
+    if (::access(path.c_str(), W_OK) != 0) fail(path, system_reason(errno));
+}
+
+void check_folder(const fs::path& path) {
+    const fs::path folder = folder_of(path);
+    std::error_code error;
+    const fs::file_status status = fs::status(folder, error);
+    if (status.type() == fs::file_type::not_found)
+        fail(path, fmt::format("the folder \"{}\" does not exist", folder.string()));
+    if (error) fail(path, error.message());
+    if (!fs::is_directory(status)) fail(path, fmt::format("\"{}\" is not a folder", folder.string()));
+}
+
+}  // namespace
+
+void check_writable(const fs::path& path) {
+    format_of(path);
+    check_folder(path);
+    check_target(path);
+    const TemporaryFile probe(resolve_links(path));
+}
+
+void replace_file(const fs::path& path, std::span<const unsigned char> bytes) {
+    TemporaryFile file(resolve_links(path));
+    file.write(bytes);
+    file.rename_to_target();
+}
+
+}  // namespace strata::image

@@ -1,0 +1,111 @@
+#include "src/image/read.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <memory>
+
+#include "src/image/format.h"
+#include "src/image/image_error.h"
+#include "src/image/library.h"
+#include "src/image/metadata.h"
+
+namespace strata::image {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+    throw ImageError(fmt::format("cannot read \"{}\": {}", path.string(), reason));
+}
+
+struct Signature {
+    std::string_view bytes;
+    Format format;
+};
+
+using namespace std::string_view_literals;
+constexpr std::array<Signature, 5> kSignatures{{
+    {"\x76\x2f\x31\x01"sv, Format::exr},
+    {"\x89PNG\r\n\x1a\n"sv, Format::png},
+    {"II*\0"sv, Format::tiff},
+    {"MM\0*"sv, Format::tiff},
+    {"\xff\xd8\xff"sv, Format::jpeg},
+}};
+
+std::optional<Format> sniff(const fs::path& path) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) return std::nullopt;
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, 8> buffer{};
+    file.read(buffer.data(), buffer.size());
+    const std::string_view start(buffer.data(), static_cast<std::size_t>(file.gcount()));
+    for (const Signature& signature : kSignatures)
+        if (start.starts_with(signature.bytes)) return signature.format;
+    return std::nullopt;
+}
+
+void check_readable(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found) fail(path, "it does not exist");
+    if (error) fail(path, error.message());
+    if (fs::is_directory(status)) fail(path, "it is a folder");
+    if (!std::ifstream(path)) fail(path, "it may not be read");
+}
+
+struct OpenPicture {
+    Format format;
+    std::unique_ptr<OIIO::ImageInput> input;
+    OIIO::ImageSpec spec;
+};
+
+OpenPicture open_picture(const fs::path& path) {
+    check_readable(path);
+    const std::optional<Format> format = sniff(path);
+    if (!format) fail(path, "it is no EXR, PNG, TIFF or JPEG picture");
+    configure_library();
+    OpenPicture opened{*format, OIIO::ImageInput::create(name_of(*format)), {}};
+    if (!opened.input) fail(path, OIIO::geterror());
+    if (!opened.input->open(path.string(), opened.spec)) fail(path, opened.input->geterror());
+    return opened;
+}
+
+Picture make_window(Format format, const OIIO::ImageSpec& spec) {
+    if (format == Format::png || format == Format::jpeg) return make_picture(spec.width, spec.height);
+    const int x0 = spec.x - spec.full_x;
+    const int y0 = spec.y - spec.full_y;
+    Picture picture{spec.full_width, spec.full_height, x0, y0, x0 + spec.width, y0 + spec.height, {}};
+    picture.rgb.resize(3 * picture.pixels());
+    return picture;
+}
+
+}  // namespace
+
+bool is_picture(const fs::path& path) {
+    return sniff(path).has_value();
+}
+
+Picture read_picture(const fs::path& path) {
+    const OpenPicture opened = open_picture(path);
+    if (opened.spec.nchannels < 3)
+        fail(path, fmt::format("it has {} channels, three are needed", opened.spec.nchannels));
+    Picture picture = make_window(opened.format, opened.spec);
+    // A TIFF that lacks strips is "read", with an error pending.
+    const bool done = opened.input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, picture.rgb.data());
+    if (!done || opened.input->has_error()) fail(path, opened.input->geterror());
+    return picture;
+}
+
+std::optional<std::string> read_metadata(const fs::path& path, std::string_view name) {
+    const OpenPicture opened = open_picture(path);
+    if (opened.format == Format::tiff || opened.format == Format::jpeg)
+        return unpack(opened.spec.get_string_attribute("ImageDescription").str()).find(name);
+    const OIIO::ParamValue* value =
+        opened.spec.find_attribute(OIIO::string_view(name.data(), name.size()), OIIO::TypeDesc::STRING);
+    if (value == nullptr) return std::nullopt;
+    return value->get_string(0);
+}
+
+}  // namespace strata::image

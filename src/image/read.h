@@ -1,0 +1,25 @@
+// Pictures back from files: EXR, PNG, TIFF and JPEG, told apart by their first bytes whatever they are called.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "src/image/picture.h"
+
+namespace strata::image {
+
+// Whether the file starts like a picture of a known format. False for what cannot be read.
+bool is_picture(const std::filesystem::path& path);
+
+// The first three channels. Values are as stored: linear in EXR, sRGB codes scaled to [0,1] in the others. Frame and
+// crop come from EXR and TIFF; elsewhere the picture is its own frame. A frame that does not start at (0,0) is moved
+// there. Throws ImageError for what is no picture, has fewer than three channels or is damaged.
+Picture read_picture(const std::filesystem::path& path);
+
+// A metadata entry as it was written, or nothing when the picture has none of that name. Throws ImageError for what is
+// no picture.
+std::optional<std::string> read_metadata(const std::filesystem::path& path, std::string_view name);
+
+}  // namespace strata::image

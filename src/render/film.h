@@ -1,0 +1,52 @@
+// The rendered part of a picture, and which of its pixels are done.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace strata::render {
+
+// Half-open: pixels [x0,x1) x [y0,y1) of the frame, y down.
+struct Window {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+    int width() const { return x1 - x0; }
+    int height() const { return y1 - y0; }
+    bool operator==(const Window&) const = default;
+};
+
+class Film {
+  public:
+    Film() = default;
+    explicit Film(const Window& window);
+
+    const Window& window() const { return window_; }
+
+    // Linear radiance, row by row from the window's top left; 0 where a pixel is not finished.
+    const std::vector<glm::vec3>& pixels() const { return pixels_; }
+    const glm::vec3& at(int x, int y) const { return pixels_[index(x, y)]; }
+
+    bool finished(int x, int y) const { return finished_[index(x, y)] != 0; }
+    std::size_t finished_count() const;
+    bool complete() const { return finished_count() == pixels_.size(); }
+
+    // Sets a pixel, in frame coordinates, and marks it finished. Different pixels may be set by different threads.
+    void finish(int x, int y, const glm::vec3& radiance) {
+        pixels_[index(x, y)] = radiance;
+        finished_[index(x, y)] = 1;
+    }
+
+  private:
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width()) +
+               static_cast<std::size_t>(x - window_.x0);
+    }
+
+    Window window_;
+    std::vector<glm::vec3> pixels_;
+    std::vector<std::uint8_t> finished_;
+};
+
+}  // namespace strata::render

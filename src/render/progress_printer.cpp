@@ -1,0 +1,67 @@
+#include "src/render/progress_printer.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace strata::render {
+
+namespace {
+
+template <typename... Values>
+std::string formatted(const char* format, Values... values) {
+    char text[96];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+    const long long whole = std::llround(std::ceil(std::fmin(std::fmax(seconds, 0.0), 1e15)));
+    if (whole < 60) return formatted("%lld s", whole);
+    if (whole < 3600) return formatted("%lld min %02lld s", whole / 60, whole % 60);
+    return formatted("%lld h %02lld min", whole / 3600, whole / 60 % 60);
+}
+
+std::string progress_line(const Progress& progress) {
+    std::string line =
+        formatted("%3.0f %%, %.3g M rays/s", std::floor(100 * progress.fraction), progress.rays_per_second() / 1e6);
+    if (progress.fraction > 0) line += ", " + duration_text(progress.predicted_seconds() - progress.seconds) + " left";
+    return line;
+}
+
+bool predicted_long(const Progress& progress) {
+    return progress.seconds >= kPredictionBasis_s && progress.predicted_seconds() > kLongRender_s;
+}
+
+ProgressPrinter::ProgressPrinter(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+ProgressPrinter::~ProgressPrinter() {
+    clear();
+}
+
+ProgressCallback ProgressPrinter::callback() {
+    return [this](const Progress& progress) { show(progress); };
+}
+
+void ProgressPrinter::clear() {
+    if (line_shown_) std::fputs("\r\033[K", stderr);
+    line_shown_ = false;
+}
+
+void ProgressPrinter::show(const Progress& progress) {
+    if (quiet_) return;
+    if (!warned_ && predicted_long(progress)) {
+        clear();
+        std::fprintf(stderr, "This render will take about %s.\n", duration_text(progress.predicted_seconds()).c_str());
+        warned_ = true;
+    }
+    if (!terminal_) return;
+    std::fprintf(stderr, "\r\033[K%s", progress_line(progress).c_str());
+    std::fflush(stderr);
+    line_shown_ = true;
+}
+
+}  // namespace strata::render

@@ -1,0 +1,46 @@
+// Shows progress on stderr: a line rewritten in place if that is a terminal, and once, wherever it goes, a warning if
+// the render will be long.
+#pragma once
+
+#include <string>
+
+#include "src/render/progress.h"
+
+namespace strata::render {
+
+// "42 %, 3.1 M rays/s, 1 min 05 s left".
+std::string progress_line(const Progress& progress);
+
+// "12 s", "1 min 05 s", "2 h 03 min".
+std::string duration_text(double seconds);
+
+class ProgressPrinter {
+  public:
+    // quiet: neither line nor warning.
+    explicit ProgressPrinter(bool quiet);
+    ~ProgressPrinter();  // clears the line
+    ProgressPrinter(const ProgressPrinter&) = delete;
+    ProgressPrinter& operator=(const ProgressPrinter&) = delete;
+
+    // A callback for one render at a time; the printer must outlive it.
+    ProgressCallback callback();
+
+    void clear();
+
+  private:
+    void show(const Progress& progress);
+
+    bool quiet_;
+    bool terminal_;
+    bool line_shown_ = false;
+    bool warned_ = false;
+};
+
+// Renders predicted to take longer are announced, once the prediction rests on this much time.
+inline constexpr double kLongRender_s = 600;
+inline constexpr double kPredictionBasis_s = 2;
+
+// Whether a render is predicted to be long.
+bool predicted_long(const Progress& progress);
+
+}  // namespace strata::render

@@ -1,0 +1,32 @@
+// From an image function to a film: in parallel, and the same bits for any number of threads, tile size and window.
+#pragma once
+
+#include "src/render/cancel.h"
+#include "src/render/estimator.h"
+#include "src/render/film.h"
+#include "src/render/image_function.h"
+#include "src/render/progress.h"
+
+namespace strata::render {
+
+struct RenderOptions {
+    int threads = 0;                      // 0: as many as the machine has
+    int tile = 32;                        // side in pixels, >= 1
+    ProgressCallback on_progress;         // may be empty; called from any thread, one call at a time
+    const CancelToken* cancel = nullptr;  // looked at between batches
+};
+
+struct RenderResult {
+    Film film;
+    Counters counters;
+    double seconds = 0;      // by the clock
+    double cpu_seconds = 0;  // of all threads: sampling, evaluating, filtering
+    bool cancelled = false;  // some pixels of the film are not finished
+};
+
+// Renders pixels [x0,x1) x [y0,y1) of the frame; the frame itself has no part in it, and the window may be anywhere.
+// Throws std::invalid_argument for an empty window or a tile below 1.
+RenderResult render(const ImageFunction& image, const Estimator& estimator, const Window& window,
+                    const RenderOptions& options = {});
+
+}  // namespace strata::render

@@ -1,0 +1,64 @@
+#include "src/render/render_context.h"
+
+#include <ctime>
+
+#include <algorithm>
+
+namespace strata::render {
+
+namespace {
+
+double thread_cpu_seconds() {
+    timespec time = {};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+}  // namespace
+
+RenderContext::RenderContext(const ImageFunction& image_function, const Estimator& pixel_estimator,
+                             const RenderOptions& render_options, std::int64_t total_work)
+    : image(image_function),
+      estimator(pixel_estimator),
+      options(render_options),
+      progress(total_work, render_options.on_progress),
+      seam_(render_options.threads),
+      workers_(static_cast<std::size_t>(seam_.threads())) {}
+
+void RenderContext::run(std::int64_t count, const std::function<void(Worker&, std::int64_t)>& body) {
+    seam_.run(count, [&](int worker_number, std::int64_t index) {
+        Worker& worker = workers_[static_cast<std::size_t>(worker_number)];
+        const double start_s = thread_cpu_seconds();
+        body(worker, index);
+        worker.cpu_seconds += thread_cpu_seconds() - start_s;
+    });
+}
+
+bool RenderContext::evaluate(Worker& worker, std::span<glm::vec3> radiance) const {
+    const std::size_t count = worker.samples.u.size();
+    for (std::size_t first = 0; first < count; first += kBatchSamples) {
+        if (cancelled()) return false;
+        const std::size_t size = std::min(kBatchSamples, count - first);
+        image.evaluate(worker.samples.batch(first, size), radiance.subspan(first, size), worker.counters);
+        worker.rays += size;
+    }
+    return true;
+}
+
+std::size_t RenderContext::owners_a_batch() const {
+    return std::max<std::size_t>(1, kBatchSamples / static_cast<std::size_t>(estimator.sample_count()));
+}
+
+void RenderContext::finish(RenderResult& result) const {
+    std::uint64_t rays = 0;
+    for (const Worker& worker : workers_) {
+        result.counters += worker.counters;
+        rays += worker.rays;
+        result.cpu_seconds += worker.cpu_seconds;
+    }
+    result.counters.rays = rays;
+    result.seconds = progress.seconds();
+    result.cancelled = !result.film.complete();
+}
+
+}  // namespace strata::render

@@ -1,0 +1,65 @@
+// What a render in progress shares between its workers. Private to src/render.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "src/render/render.h"
+#include "src/render/task_seam.h"
+
+namespace strata::render {
+
+// Samples handed to the image function at once: enough to amortise the call, few enough to stop soon when cancelled.
+inline constexpr std::size_t kBatchSamples = 2048;
+
+// Of one thread at a time; buffers are kept from tile to tile.
+struct alignas(64) Worker {
+    SampleSet samples;
+    std::vector<glm::ivec2> owners;  // pixels or cells of `samples`
+    std::vector<glm::vec3> radiance;
+    Counters counters;
+    std::uint64_t rays = 0;  // samples evaluated, whatever the image function counts
+    double cpu_seconds = 0;
+};
+
+class RenderContext {
+  public:
+    RenderContext(const ImageFunction& image_function, const Estimator& pixel_estimator,
+                  const RenderOptions& render_options, std::int64_t total_work);
+
+    // Calls body(worker, index) for every index of [0,count), on all threads.
+    void run(std::int64_t count, const std::function<void(Worker&, std::int64_t)>& body);
+
+    // Evaluates the worker's samples in batches; false if cancelled on the way.
+    bool evaluate(Worker& worker, std::span<glm::vec3> radiance) const;
+
+    bool cancelled() const { return options.cancel != nullptr && options.cancel->requested(); }
+
+    // As many owners as fill a batch, at least one.
+    std::size_t owners_a_batch() const;
+
+    // Sums up what the workers did.
+    void finish(RenderResult& result) const;
+
+    const ImageFunction& image;
+    const Estimator& estimator;
+    const RenderOptions& options;
+    ProgressMeter progress;
+
+  private:
+    TaskSeam seam_;
+    std::vector<Worker> workers_;
+};
+
+// Estimators whose samples belong to a pixel: tiles, in any order.
+void render_tiles(RenderContext& context, int side, Film& film);
+
+// Estimators whose samples belong to a screen cell and count in many pixels.
+void render_shared(RenderContext& context, Film& film);
+
+// Cells whose samples can reach the window's pixels.
+Window cells_of(const Window& window, const Estimator& estimator);
+
+}  // namespace strata::render

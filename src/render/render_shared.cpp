@@ -1,0 +1,156 @@
+// Shared samples: screen cells are evaluated once each, row by row, in runs that fit a buffer. A run is evaluated in
+// parallel over its cells, then added up in parallel over strips of pixel columns; each pixel sees the same order of
+// additions whatever the runs and strips are.
+#include <algorithm>
+#include <cstddef>
+
+#include "src/render/render_accumulators.h"
+#include "src/render/render_context.h"
+
+namespace strata::render {
+
+namespace {
+
+constexpr std::size_t kRunBytes = 8u << 20;  // of samples in the buffer
+constexpr std::int64_t kRunRows = 48;        // bounds the rows of pixels in work
+constexpr int kStripColumns = 64;
+
+class SharedRender {
+  public:
+    SharedRender(RenderContext& context, Film& film);
+
+    void render();
+
+  private:
+    struct Run {
+        std::int64_t first, last;  // cells, row by row
+    };
+
+    glm::ivec2 cell(std::int64_t index) const;
+    CellSamples samples_of(std::int64_t index, const Run& run) const;
+    int accumulator_rows() const;
+    void evaluate(const Run& run);
+    void evaluate_block(Worker& worker, std::int64_t first, std::int64_t last, const Run& run);
+    void add_up(const Run& run);
+    void add_to_strip(const Run& run, int x0, int x1);
+    int finished_rows_end(const Run& run) const;
+
+    RenderContext& context_;
+    Film& film_;
+    const Window& window_;
+    Window cells_;
+    int reach_;
+    std::size_t samples_a_cell_;
+    std::int64_t cells_a_run_;
+    std::vector<float> fraction_u_, fraction_v_;  // of the run's samples
+    std::vector<glm::vec3> radiance_;
+    PixelAccumulators accumulators_;
+    int finished_end_;  // pixel rows above are in the film
+};
+
+std::int64_t cells_in_a_run(const Window& cells, std::size_t samples_a_cell) {
+    const std::size_t bytes = samples_a_cell * (2 * sizeof(float) + sizeof(glm::vec3));
+    const std::int64_t total = std::int64_t{1} * cells.width() * cells.height();
+    const std::int64_t fitting = static_cast<std::int64_t>(std::max<std::size_t>(1, kRunBytes / bytes));
+    return std::min({fitting, kRunRows * cells.width(), total});
+}
+
+SharedRender::SharedRender(RenderContext& context, Film& film)
+    : context_(context),
+      film_(film),
+      window_(film.window()),
+      cells_(cells_of(window_, context.estimator)),
+      reach_(context.estimator.weights().reach()),
+      samples_a_cell_(static_cast<std::size_t>(context.estimator.sample_count())),
+      cells_a_run_(cells_in_a_run(cells_, samples_a_cell_)),
+      fraction_u_(static_cast<std::size_t>(cells_a_run_) * samples_a_cell_),
+      fraction_v_(fraction_u_.size()),
+      radiance_(fraction_u_.size()),
+      accumulators_(window_, context.estimator.weights(), accumulator_rows()),
+      finished_end_(window_.y0) {}
+
+// Rows seen by a run's cells, which may begin and end within a row, and rows that an earlier run left unfinished.
+int SharedRender::accumulator_rows() const {
+    const std::int64_t rows = cells_a_run_ / cells_.width() + 2 + 2 * reach_ + 1;
+    return static_cast<int>(std::min<std::int64_t>(rows, window_.height()));
+}
+
+glm::ivec2 SharedRender::cell(std::int64_t index) const {
+    return {cells_.x0 + static_cast<int>(index % cells_.width()), cells_.y0 + static_cast<int>(index / cells_.width())};
+}
+
+CellSamples SharedRender::samples_of(std::int64_t index, const Run& run) const {
+    const std::size_t first = static_cast<std::size_t>(index - run.first) * samples_a_cell_;
+    return {cell(index), std::span(fraction_u_).subspan(first, samples_a_cell_),
+            std::span(fraction_v_).subspan(first, samples_a_cell_),
+            std::span(radiance_).subspan(first, samples_a_cell_)};
+}
+
+void SharedRender::render() {
+    const std::int64_t total = std::int64_t{1} * cells_.width() * cells_.height();
+    for (std::int64_t first = 0; first < total && !context_.cancelled(); first += cells_a_run_) {
+        const Run run{first, std::min(first + cells_a_run_, total)};
+        evaluate(run);
+        if (context_.cancelled()) return;
+        add_up(run);
+    }
+}
+
+void SharedRender::evaluate(const Run& run) {
+    const auto block = static_cast<std::int64_t>(context_.owners_a_batch());
+    context_.run((run.last - run.first + block - 1) / block, [&](Worker& worker, std::int64_t index) {
+        const std::int64_t first = run.first + index * block;
+        evaluate_block(worker, first, std::min(first + block, run.last), run);
+    });
+}
+
+void SharedRender::evaluate_block(Worker& worker, std::int64_t first, std::int64_t last, const Run& run) {
+    worker.owners.clear();
+    for (std::int64_t index = first; index < last; ++index) worker.owners.push_back(cell(index));
+    context_.estimator.cell_samples(worker.owners, worker.samples);
+    const std::size_t offset = static_cast<std::size_t>(first - run.first) * samples_a_cell_;
+    const std::size_t count = worker.samples.u.size();
+    if (!context_.evaluate(worker, std::span(radiance_).subspan(offset, count))) return;
+    std::copy_n(worker.samples.fraction_u.begin(), count, fraction_u_.begin() + static_cast<std::ptrdiff_t>(offset));
+    std::copy_n(worker.samples.fraction_v.begin(), count, fraction_v_.begin() + static_cast<std::ptrdiff_t>(offset));
+    context_.progress.add(last - first, static_cast<std::int64_t>(count));
+}
+
+// Below the returned row, pixels still wait for cells after the run.
+int SharedRender::finished_rows_end(const Run& run) const {
+    const int complete_cell_rows = static_cast<int>(run.last / cells_.width());
+    return std::clamp(cells_.y0 + complete_cell_rows - reach_, finished_end_, window_.y1);
+}
+
+void SharedRender::add_up(const Run& run) {
+    const int strips = (window_.width() + kStripColumns - 1) / kStripColumns;
+    const int finished_end = finished_rows_end(run);
+    context_.run(strips, [&](Worker&, std::int64_t strip) {
+        const int x0 = window_.x0 + static_cast<int>(strip) * kStripColumns;
+        const int x1 = std::min(x0 + kStripColumns, window_.x1);
+        add_to_strip(run, x0, x1);
+        if (!context_.cancelled()) accumulators_.finish(finished_end_, finished_end, x0, x1, film_);
+    });
+    finished_end_ = finished_end;
+}
+
+void SharedRender::add_to_strip(const Run& run, int x0, int x1) {
+    const std::int64_t width = cells_.width();
+    for (std::int64_t row = run.first / width; row * width < run.last; ++row) {
+        const std::int64_t row_start = row * width - cells_.x0;
+        const std::int64_t first = std::max(run.first, row_start + x0 - reach_);
+        const std::int64_t last = std::min(run.last, row_start + x1 + reach_);
+        for (std::int64_t index = first; index < last; ++index) {
+            if (context_.cancelled()) return;
+            accumulators_.add(samples_of(index, run), x0, x1);
+        }
+    }
+}
+
+}  // namespace
+
+void render_shared(RenderContext& context, Film& film) {
+    SharedRender(context, film).render();
+}
+
+}  // namespace strata::render

@@ -1,0 +1,193 @@
+#include "src/render/surface_image.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "shaders_cpu/sky.h"
+#include "shaders_cpu/terrain_material.h"
+#include "src/trace/reference_tracer.h"
+
+namespace strata::render {
+
+namespace {
+
+// Rays traced at once: enough to keep packets full, few enough for their data to stay in the second-level cache.
+constexpr std::size_t kChunk = 1024;
+
+void add(Counters& to, const trace::TraceCounters& from) {
+    to.noise_evaluations += from.noise_evaluations;
+    to.executed_lanes += from.executed_lanes;
+    to.steps += from.steps;
+}
+
+}  // namespace
+
+// A hit on its way to radiance, in the surface's coordinates.
+struct SurfaceImage::Lit {
+    std::size_t sample = 0;
+    glm::dvec3 normal{0.0};
+    glm::dvec3 up{0.0, 1.0, 0.0};
+    glm::dvec3 view{0.0};  // the ray's direction
+    glm::dvec3 sun{0.0};
+    double height = 0.0;
+    double distance = 0.0;
+    double visibility = 1.0;
+};
+
+// What a chunk of samples needs on its way; one each call of evaluate(), its memory reused from chunk to chunk.
+struct SurfaceImage::Chunk {
+    std::vector<trace::Ray> rays, shadow_rays;
+    std::vector<trace::Hit> hits, surface_hits, shadow_hits;
+    std::vector<glm::dvec3> sun, x;
+    std::vector<glm::vec3> normal;
+    std::vector<Lit> lit;
+    std::vector<std::size_t> shadow_owner;
+};
+
+SurfaceImage::SurfaceImage(const scene::Scene& scene, Tracer tracer)
+    : scene_(scene),
+      tracer_(tracer),
+      field_(scene.surface),
+      fast_(field_),
+      placement_(scene.surface),
+      camera_(scene.camera, scene.film),
+      sun_direction_(glm::normalize(scene.sun.direction)) {}
+
+trace::Ray SurfaceImage::camera_ray(double u, double v) const {
+    const trace::CameraRay seen = camera_.ray(u, v);
+    return {.origin = camera_.position(),
+            .direction = seen.direction,
+            .limit = scene_.camera.far,
+            .delta0 = 0.0,
+            .delta_slope = scene_.sampling.tolerance * seen.pixel_angle};
+}
+
+trace::Ray SurfaceImage::world_ray(const glm::dvec3& origin, const glm::dvec3& direction) const {
+    trace::Ray ray = camera_ray(0.5 * scene_.film.width, 0.5 * scene_.film.height);
+    ray.origin = origin;
+    ray.direction = glm::normalize(direction);
+    return ray;
+}
+
+void SurfaceImage::trace(std::span<const trace::Ray> rays, std::span<trace::Hit> hits,
+                         trace::TraceCounters& counters) const {
+    if (tracer_ == Tracer::reference) return trace::trace_reference(field_, rays, hits, counters);
+    fast_.trace(rays, hits, counters);
+}
+
+void SurfaceImage::normals(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
+                           std::span<glm::vec3> normal, trace::TraceCounters& counters) const {
+    if (tracer_ == Tracer::reference) {
+        for (std::size_t i = 0; i < x.size(); ++i) normal[i] = glm::vec3(field_.gradient(x[i]));
+        counters.noise_evaluations += x.size() * field_.octaves().size();
+        counters.executed_lanes += x.size() * field_.octaves().size();
+    } else {
+        fast_.gradients(x, normal, counters);
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (hits[i].on_bound) normal[i] = glm::vec3(field_.bound_normal(x[i]));
+        const float length = glm::length(normal[i]);
+        normal[i] = length > 0.0f ? normal[i] / length : glm::vec3(0.0f, 1.0f, 0.0f);
+    }
+}
+
+void SurfaceImage::evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const {
+    Chunk chunk;
+    for (std::size_t begin = 0; begin < samples.u.size(); begin += kChunk) {
+        const std::size_t count = std::min(kChunk, samples.u.size() - begin);
+        const SampleBatch part{samples.u.subspan(begin, count), samples.v.subspan(begin, count),
+                               samples.t.subspan(begin, count)};
+        evaluate_chunk(part, radiance.subspan(begin, count), chunk, counters);
+    }
+}
+
+void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec3> radiance, Chunk& chunk,
+                                  Counters& counters) const {
+    const std::size_t count = samples.u.size();
+    trace::TraceCounters traced;
+
+    // Rays, turned into the surface's coordinates at their own time.
+    chunk.rays.resize(count);
+    chunk.sun.resize(count);
+    glm::dmat3 orientation = placement_.orientation(0.0);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (placement_.moves()) orientation = placement_.orientation(samples.t[i]);
+        chunk.rays[i] = placement_.to_local(orientation, camera_ray(samples.u[i], samples.v[i]));
+        chunk.sun[i] = trace::Placement::direction_to_local(orientation, sun_direction_);
+    }
+    chunk.hits.resize(count);
+    trace(chunk.rays, chunk.hits, traced);
+
+    // Positions and normals of what was hit; the rest is sky.
+    chunk.lit.clear();
+    chunk.surface_hits.clear();
+    chunk.x.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        const trace::Ray& ray = chunk.rays[i];
+        const trace::Hit& hit = chunk.hits[i];
+        if (hit.state == trace::HitState::miss) {
+            radiance[i] = shaders::sky_radiance(scene_.sky, ray.direction);
+        } else if (hit.state == trace::HitState::unresolved) {
+            radiance[i] = kUnresolvedRadiance;
+            ++counters.unresolved_rays;
+        } else {
+            chunk.x.push_back(ray.origin + hit.s * ray.direction);
+            chunk.surface_hits.push_back(hit);
+            chunk.lit.push_back({.sample = i, .view = ray.direction, .sun = chunk.sun[i], .distance = hit.s});
+        }
+    }
+    chunk.normal.resize(chunk.x.size());
+    normals(chunk.surface_hits, chunk.x, chunk.normal, traced);
+    const bool is_planet = scene_.surface.kind == scene::SurfaceKind::planet;
+    for (std::size_t i = 0; i < chunk.lit.size(); ++i) {
+        Lit& lit = chunk.lit[i];
+        lit.normal = glm::dvec3(chunk.normal[i]);
+        lit.height = is_planet ? field_.base(chunk.x[i]) : chunk.x[i].y;
+        if (is_planet) lit.up = field_.base_gradient(chunk.x[i]);
+    }
+    add(counters, traced);
+
+    if (scene_.sun.shadows && scene_.sun.intensity > 0.0) shadow(chunk, counters);
+    for (const Lit& lit : chunk.lit) radiance[lit.sample] = shade_hit(lit);
+    counters.rays += count;
+    counters.hits += chunk.lit.size();
+}
+
+// A shadow ray leaves from the last point known to be outside, so that it does not start in the surface it left. A
+// point of the convex bound that faces the sun sees it.
+void SurfaceImage::shadow(Chunk& chunk, Counters& counters) const {
+    chunk.shadow_rays.clear();
+    chunk.shadow_owner.clear();
+    for (std::size_t i = 0; i < chunk.lit.size(); ++i) {
+        const Lit& lit = chunk.lit[i];
+        const trace::Hit& hit = chunk.surface_hits[i];
+        if (glm::dot(lit.normal, lit.sun) <= 0.0 || hit.on_bound) continue;
+        trace::Ray ray = chunk.rays[lit.sample];
+        ray.delta0 += ray.delta_slope * hit.s;
+        ray.origin += hit.s_outside * ray.direction;
+        ray.direction = lit.sun;
+        chunk.shadow_rays.push_back(ray);
+        chunk.shadow_owner.push_back(i);
+    }
+    chunk.shadow_hits.resize(chunk.shadow_rays.size());
+    trace::TraceCounters traced;
+    trace(chunk.shadow_rays, chunk.shadow_hits, traced);
+    for (std::size_t i = 0; i < chunk.shadow_hits.size(); ++i) {
+        const trace::HitState state = chunk.shadow_hits[i].state;
+        if (state != trace::HitState::miss) chunk.lit[chunk.shadow_owner[i]].visibility = 0.0;
+        if (state == trace::HitState::unresolved) ++counters.unresolved_rays;
+    }
+    counters.shadow_rays += chunk.shadow_rays.size();
+    add(counters, traced);
+}
+
+glm::vec3 SurfaceImage::shade_hit(const Lit& lit) const {
+    const shaders::SurfacePoint point{.height = lit.height,
+                                      .up_dot_normal = glm::dot(lit.up, lit.normal),
+                                      .n_dot_sun = glm::dot(lit.normal, lit.sun),
+                                      .sun_visibility = lit.visibility};
+    const glm::vec3 surface = shaders::shade(scene_.material, scene_.sun, scene_.sky, point);
+    return shaders::apply_haze(scene_.sky, surface, lit.distance, lit.view);
+}
+
+}  // namespace strata::render

@@ -1,0 +1,61 @@
+// The picture of a ray-cast surface under sun and sky, as an image function.
+#pragma once
+
+#include <memory>
+
+#include "src/render/image_function.h"
+#include "src/scene/scene.h"
+#include "src/trace/camera.h"
+#include "src/trace/fast_tracer.h"
+#include "src/trace/field.h"
+#include "src/trace/placement.h"
+
+namespace strata::render {
+
+enum class Tracer { fast, reference };
+
+// Rays that no tracer could settle within its step limit are drawn in this colour, to be seen.
+inline constexpr glm::vec3 kUnresolvedRadiance{1.0f, 0.0f, 1.0f};
+
+class SurfaceImage final : public ImageFunction {
+  public:
+    // scene.image is `surface`, and the scene is valid.
+    SurfaceImage(const scene::Scene& scene, Tracer tracer);
+
+    void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const override;
+
+    const trace::Field& field() const { return field_; }
+    const trace::Placement& placement() const { return placement_; }
+
+    // The camera's ray through a point of the screen, in the world, with the scene's tolerance.
+    trace::Ray camera_ray(double u, double v) const;
+
+    // A ray of the world with the tolerance that the centre of the screen has.
+    trace::Ray world_ray(const glm::dvec3& origin, const glm::dvec3& direction) const;
+
+    // Traces rays in the surface's coordinates.
+    void trace(std::span<const trace::Ray> rays, std::span<trace::Hit> hits, trace::TraceCounters& counters) const;
+
+    // Outward unit normals of hits in the surface's coordinates: `x` are their positions.
+    void normals(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x, std::span<glm::vec3> normal,
+                 trace::TraceCounters& counters) const;
+
+  private:
+    struct Chunk;
+    struct Lit;
+
+    void evaluate_chunk(const SampleBatch& samples, std::span<glm::vec3> radiance, Chunk& chunk,
+                        Counters& counters) const;
+    void shadow(Chunk& chunk, Counters& counters) const;
+    glm::vec3 shade_hit(const Lit& lit) const;
+
+    scene::Scene scene_;
+    Tracer tracer_;
+    trace::Field field_;
+    trace::FastTracer fast_;
+    trace::Placement placement_;
+    trace::Camera camera_;
+    glm::dvec3 sun_direction_;  // in the world, of unit length
+};
+
+}  // namespace strata::render

@@ -1,0 +1,38 @@
+#include "src/render/tiles.h"
+
+#include <algorithm>
+
+namespace strata::render {
+
+namespace {
+
+std::int64_t divide_up(std::int64_t a, std::int64_t b) {
+    return (a + b - 1) / b;
+}
+
+}  // namespace
+
+TileGrid::TileGrid(const Window& window, int side)
+    : window_(window),
+      side_(side),
+      columns_(divide_up(window.width(), side)),
+      rows_(divide_up(window.height(), side)) {}
+
+Window TileGrid::tile(std::int64_t index) const {
+    const std::int64_t x = index % columns_ * side_;
+    const std::int64_t y = index / columns_ * side_;
+    return {window_.x0 + static_cast<int>(x), window_.y0 + static_cast<int>(y),
+            window_.x0 + static_cast<int>(std::min<std::int64_t>(x + side_, window_.width())),
+            window_.y0 + static_cast<int>(std::min<std::int64_t>(y + side_, window_.height()))};
+}
+
+std::int64_t spread_first(std::int64_t position, std::int64_t count) {
+    const std::int64_t stride = divide_up(count, kSpreadTiles);
+    if (stride <= 1) return position;
+    const std::int64_t spread = divide_up(count, stride);
+    if (position < spread) return position * stride;
+    const std::int64_t rest = position - spread;
+    return rest / (stride - 1) * stride + 1 + rest % (stride - 1);
+}
+
+}  // namespace strata::render

@@ -1,0 +1,32 @@
+// A window cut into square tiles.
+#pragma once
+
+#include <cstdint>
+
+#include "src/render/film.h"
+
+namespace strata::render {
+
+class TileGrid {
+  public:
+    // side >= 1; tiles at the right and lower border are cut.
+    TileGrid(const Window& window, int side);
+
+    std::int64_t count() const { return columns_ * rows_; }
+
+    // Tile `index`, row by row.
+    Window tile(std::int64_t index) const;
+
+  private:
+    Window window_;
+    int side_;
+    std::int64_t columns_;
+    std::int64_t rows_;
+};
+
+// The order of work: a permutation of [0,count) that begins with at most kSpreadTiles indices spread evenly, on which a
+// prediction of the whole can rest, and goes on with the rest in ascending order.
+inline constexpr std::int64_t kSpreadTiles = 64;
+std::int64_t spread_first(std::int64_t position, std::int64_t count);
+
+}  // namespace strata::render

@@ -1,0 +1,11 @@
+# Puts the text of every tools/scenes/*.toml into strata_scene, so that the program needs no path to find them.
+file(GLOB scene_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tools/scenes/*.toml)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${scene_files})
+set(EMBEDDED_SCENES "")
+foreach(scene_file ${scene_files})
+  get_filename_component(scene_name ${scene_file} NAME_WE)
+  file(READ ${scene_file} scene_text)
+  string(APPEND EMBEDDED_SCENES "    BuiltinText{\"${scene_name}\", R\"toml(${scene_text})toml\"},\n")
+endforeach()
+configure_file(${CMAKE_CURRENT_LIST_DIR}/builtin_texts.cpp.in ${PROJECT_BINARY_DIR}/generated/builtin_texts.cpp @ONLY)
+target_sources(strata_scene PRIVATE ${PROJECT_BINARY_DIR}/generated/builtin_texts.cpp)

@@ -1,0 +1,49 @@
+// The names under which scene files, options and messages know the enumerators of scene.h.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+#include "src/scene/scene.h"
+
+namespace strata::scene {
+
+// kEnumNames<E>[i] names the enumerator of value i.
+template <class E>
+inline constexpr std::array<std::string_view, 0> kEnumNames{};
+
+template <>
+inline constexpr std::array<std::string_view, 4> kEnumNames<ImageKind>{"surface", "zoneplate", "checker", "wheel"};
+
+template <>
+inline constexpr std::array<std::string_view, 4> kEnumNames<SurfaceKind>{"terrain", "hyperterrain", "planet",
+                                                                         "isosurface"};
+
+template <>
+inline constexpr std::array<std::string_view, 2> kEnumNames<BoundKind>{"ball", "box"};
+
+template <>
+inline constexpr std::array<std::string_view, 9> kEnumNames<EstimatorKind>{
+    "none", "super", "uniform", "jittered", "stratified", "random", "sobol", "shared", "shared-sobol"};
+
+static_assert(static_cast<std::size_t>(ImageKind::wheel) + 1 == kEnumNames<ImageKind>.size());
+static_assert(static_cast<std::size_t>(SurfaceKind::isosurface) + 1 == kEnumNames<SurfaceKind>.size());
+static_assert(static_cast<std::size_t>(BoundKind::box) + 1 == kEnumNames<BoundKind>.size());
+static_assert(static_cast<std::size_t>(EstimatorKind::shared_sobol) + 1 == kEnumNames<EstimatorKind>.size());
+
+template <class E>
+constexpr std::string_view name_of(E value) {
+    return kEnumNames<E>[static_cast<std::size_t>(value)];
+}
+
+template <class E>
+constexpr std::optional<E> from_name(std::string_view name) {
+    const auto found = std::find(kEnumNames<E>.begin(), kEnumNames<E>.end(), name);
+    if (found == kEnumNames<E>.end()) return std::nullopt;
+    return static_cast<E>(found - kEnumNames<E>.begin());
+}
+
+}  // namespace strata::scene

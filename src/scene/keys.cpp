@@ -1,0 +1,215 @@
+#include "src/scene/keys.h"
+
+#include <utility>
+
+#include "src/scene/enum_names.h"
+
+namespace strata::scene {
+
+namespace {
+
+constexpr Range kAnywhere{-1e12, 1e12};
+constexpr Range kLength{1e-9, 1e9};
+constexpr Range kDistance{1e-12, 1e12};
+constexpr Range kLight{0.0, 1e6};
+constexpr Range kReflectance{0.0, 1.0};
+constexpr Range kFraction{0.0, 1.0};
+constexpr Range kAngle{-1e6, 1e6};
+
+Key number(std::string name, double& field, Range range, std::string_view unit, std::string_view meaning) {
+    return {.section = {}, .name = std::move(name), .field = &field, .range = range, .unit = unit, .meaning = meaning};
+}
+
+Key count(std::string name, int& field, Range range, std::string_view unit, std::string_view meaning) {
+    return {.section = {}, .name = std::move(name), .field = &field, .range = range, .unit = unit, .meaning = meaning};
+}
+
+Key vector(std::string name, glm::dvec3& field, Range range, std::string_view unit, std::string_view meaning) {
+    return {.section = {}, .name = std::move(name), .field = &field, .range = range, .unit = unit, .meaning = meaning};
+}
+
+Key direction(std::string name, glm::dvec3& field, std::string_view meaning) {
+    Key key = vector(std::move(name), field, kAnywhere, "", meaning);
+    key.is_direction = true;
+    return key;
+}
+
+Key colour(std::string name, glm::dvec3& field, Range range, std::string_view meaning) {
+    return vector(std::move(name), field, range, "linear red, green, blue", meaning);
+}
+
+Key seed(std::string name, std::uint64_t& field, std::string_view meaning) {
+    return {.section = {}, .name = std::move(name), .field = &field, .range = {}, .unit = {}, .meaning = meaning};
+}
+
+Key flag(std::string name, bool& field, std::string_view meaning) {
+    return {.section = {}, .name = std::move(name), .field = &field, .range = {}, .unit = {}, .meaning = meaning};
+}
+
+Key text(std::string name, std::string& field, std::string_view meaning) {
+    return {.section = {}, .name = std::move(name), .field = &field, .range = {}, .unit = {}, .meaning = meaning};
+}
+
+template <class E>
+Key choice(std::string name, E& field, std::string_view meaning) {
+    Choice names{kEnumNames<E>, [&field] { return static_cast<std::size_t>(field); },
+                 [&field](std::size_t index) { field = static_cast<E>(index); }};
+    return {.section = {}, .name = std::move(name), .field = names, .range = {}, .unit = {}, .meaning = meaning};
+}
+
+Key only_if(bool matters, Key key) {
+    key.matters = matters;
+    return key;
+}
+
+Section section(std::string name, std::string_view meaning, bool matters, std::vector<Key> keys) {
+    for (Key& key : keys) {
+        key.section = name;
+        key.matters = key.matters && matters;
+    }
+    return {std::move(name), meaning, std::move(keys)};
+}
+
+Section top_section(Scene& s) {
+    return section("", "", true,
+                   {text("title", s.title, "one line for listings"),
+                    choice("image", s.image, "what is pictured: a ray-cast surface or a test pattern")});
+}
+
+Section film_section(Film& film) {
+    return section("film", "the frame", true,
+                   {count("width", film.width, {1, 65536}, "pixels", "width of the whole frame"),
+                    count("height", film.height, {1, 65536}, "pixels", "height of the whole frame"),
+                    number("exposure", film.exposure, {-64.0, 64.0}, "stops",
+                           "brightening of 8- and 16-bit pictures; EXR stays linear")});
+}
+
+Section sampling_section(Sampling& sampling, bool surface) {
+    return section(
+        "sampling", "how samples become pixels", true,
+        {choice("estimator", sampling.estimator, "none is one sample at the centre, stratified is the paper's (3)"),
+         count("N", sampling.N, {1, 64}, "", "samples a side: N * N a pixel"),
+         count("m", sampling.m, {1, 100}, "", "order of the B-spline filter in space; 1 is the box, 4 the cubic"),
+         count("time_order", sampling.time_order, {1, 100}, "",
+               "order of the B-spline filter in time; support time_order * open_s"),
+         seed("seed", sampling.seed, "chooses the sample positions"),
+         only_if(surface, number("tolerance", sampling.tolerance, {1e-12, 1.0}, "pixel widths at the hit's distance",
+                                 "how far a reported hit may be from the surface along the ray"))});
+}
+
+Section shutter_section(Shutter& shutter) {
+    // Frame times stay finite because fps is bounded below and frame above.
+    return section("shutter", "frame k begins at k / fps seconds", true,
+                   {number("fps", shutter.fps, {1e-3, 1e6}, "frames/s", "frame rate"),
+                    number("open_s", shutter.open_s, {0.0, 1e6}, "s", "time the shutter is open; 0: an instant"),
+                    count("frame", shutter.frame, {0, 1e9}, "", "number of the frame, from 0")});
+}
+
+Section camera_section(Camera& camera, bool matters) {
+    return section(
+        "camera", "the eye; right-handed, y up", matters,
+        {vector("position", camera.position, kAnywhere, "world units", "where the eye is"),
+         vector("look_at", camera.look_at, kAnywhere, "world units", "the point in the middle of the frame"),
+         direction("up", camera.up, "what is up in the picture; another is picked when the view runs along it"),
+         number("fov_deg", camera.fov_deg, {0.01, 179.0}, "degrees", "horizontal field of view"),
+         number("far", camera.far, kDistance, "world units along a ray", "nothing is seen beyond")});
+}
+
+Section surface_section(Surface& surface, bool matters) {
+    const bool planet = surface.kind == SurfaceKind::planet;
+    const bool isosurface = surface.kind == SurfaceKind::isosurface;
+    return section(
+        "surface", "sum over octaves k of amplitude * gain^k * noise(frequency * lacunarity^k * x)", matters,
+        {choice("kind", surface.kind, "y = 2-D sum, y = 3-D sum, |x| = radius + 3-D sum, 3-D sum = threshold"),
+         vector("origin", surface.origin, kAnywhere, "world units", "where the surface's own origin is"),
+         vector("rotation_deg", surface.rotation_deg, kAngle, "degrees", "turn about x, then y, then z"),
+         number("scale", surface.scale, kLength, "world units", "length of one surface unit"),
+         direction("spin_axis", surface.spin_axis,
+                   "axis of the spin through the origin, in world directions; spun after rotation_deg"),
+         number("spin_deg_per_s", surface.spin_deg_per_s, kAngle, "degrees/s", "speed of the spin; 0: at rest"),
+         count("octaves", surface.octaves, {1, 32}, "", "terms of the sum"),
+         number("lacunarity", surface.lacunarity, {1.0, 10.0}, "", "frequency ratio of neighbouring octaves"),
+         number("gain", surface.gain, {0.0, 1.0}, "", "amplitude ratio of neighbouring octaves"),
+         number("amplitude", surface.amplitude, {0.0, 1e6}, "surface units", "amplitude of octave 0"),
+         number("frequency", surface.frequency, {1e-9, 1e9}, "lattice cells a surface unit", "frequency of octave 0"),
+         seed("seed", surface.seed, "chooses the noise"),
+         only_if(planet, number("radius", surface.radius, kLength, "surface units", "planet: radius of its sphere")),
+         only_if(isosurface, number("threshold", surface.threshold, {-1e9, 1e9}, "surface units",
+                                    "isosurface: solid where the sum exceeds it")),
+         only_if(isosurface, choice("bound", surface.bound, "isosurface: the body it is cut from")),
+         only_if(isosurface, vector("bound_size", surface.bound_size, kLength, "surface units",
+                                    "isosurface: a ball's radius in the first number, or a box's half sizes"))});
+}
+
+Section sun_section(Sun& sun, bool matters) {
+    return section("sun", "light from infinitely far", matters,
+                   {direction("direction", sun.direction, "towards the sun"),
+                    colour("colour", sun.colour, kLight, "colour of its light"),
+                    number("intensity", sun.intensity, kLight, "", "times colour is the light; 0: no sun"),
+                    flag("shadows", sun.shadows, "whether the surface shadows itself")});
+}
+
+Section sky_section(Sky& sky, bool matters) {
+    return section("sky", "what rays that miss see", matters,
+                   {colour("zenith", sky.zenith, kLight, "colour straight up"),
+                    colour("horizon", sky.horizon, kLight, "colour at the horizon, and of the haze"),
+                    number("haze_distance", sky.haze_distance, {0.0, 1e12}, "world units",
+                           "distance over which 1 - 1/e of the light becomes horizon; 0: no haze")});
+}
+
+Section material_section(Material& material, bool matters) {
+    return section(
+        "material", "diffuse reflectance by height and slope", matters,
+        {colour("low", material.low, kReflectance, "colour below band_height, on gentle slopes"),
+         colour("high", material.high, kReflectance, "colour above band_height, on gentle slopes"),
+         colour("steep", material.steep, kReflectance, "colour on slopes above steep_deg"),
+         number("band_height", material.band_height, {-1e9, 1e9}, "surface units",
+                "where low becomes high, over the base plane or sphere"),
+         number("band_width", material.band_width, kLength, "surface units", "height over which low becomes high"),
+         number("steep_deg", material.steep_deg, {0.0, 90.0}, "degrees", "slope where steep begins"),
+         number("steep_width_deg", material.steep_width_deg, {1e-3, 90.0}, "degrees",
+                "slopes over which steep takes over")});
+}
+
+Section zoneplate_section(Zoneplate& zoneplate, bool matters) {
+    return section(
+        "zoneplate", "rings that grow finer outwards", matters,
+        {number("rings", zoneplate.rings, {0.0, 1e9}, "periods",
+                "rings from the centre to the frame's nearer edge; 0: so many that the last is 2 pixels wide")});
+}
+
+Section checker_section(Checker& checker, bool matters) {
+    return section(
+        "checker", "a checkered plane that recedes to the horizon", matters,
+        {number("square", checker.square, kLength, "world units", "side of a square"),
+         number("height", checker.height, kLength, "world units", "height of the eye over the plane"),
+         number("horizon", checker.horizon, kFraction, "of the frame's height", "where the horizon is, from the top")});
+}
+
+Section wheel_section(Wheel& wheel, bool matters) {
+    return section(
+        "wheel", "a spoked wheel that turns", matters,
+        {count("spokes", wheel.spokes, {1, 1000}, "", "number of spokes, evenly spread"),
+         number("turns_per_s", wheel.turns_per_s, {-1e6, 1e6}, "turns/s", "speed, counter-clockwise on the screen"),
+         number("spoke_fill", wheel.spoke_fill, kFraction, "of the angle", "how much of the wheel is spoke")});
+}
+
+}  // namespace
+
+std::vector<Section> describe(Scene& scene) {
+    const bool surface = scene.image == ImageKind::surface;
+    return {top_section(scene),
+            film_section(scene.film),
+            sampling_section(scene.sampling, surface),
+            shutter_section(scene.shutter),
+            camera_section(scene.camera, surface),
+            surface_section(scene.surface, surface),
+            sun_section(scene.sun, surface),
+            sky_section(scene.sky, surface),
+            material_section(scene.material, surface),
+            zoneplate_section(scene.zoneplate, scene.image == ImageKind::zoneplate),
+            checker_section(scene.checker, scene.image == ImageKind::checker),
+            wheel_section(scene.wheel, scene.image == ImageKind::wheel)};
+}
+
+}  // namespace strata::scene

@@ -1,0 +1,54 @@
+#include "src/scene/override.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "src/scene/key_lookup.h"
+#include "src/scene/key_text.h"
+#include "src/scene/keys.h"
+#include "src/scene/toml_reader.h"
+
+namespace strata::scene {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kSpace = " \t";
+    const auto first = text.find_first_not_of(kSpace);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+}
+
+void assign(Scene& scene, std::string_view assignment) {
+    const auto equals = assignment.find('=');
+    if (equals == std::string_view::npos) {
+        throw SceneError("no '=', allowed: section.key=value, such as camera.fov_deg=35");
+    }
+    const std::string_view full_name = trimmed(assignment.substr(0, equals));
+    const auto dot = full_name.find('.');
+    const std::string_view section_name = dot == std::string_view::npos ? "" : full_name.substr(0, dot);
+    const std::string_view name = dot == std::string_view::npos ? full_name : full_name.substr(dot + 1);
+
+    const std::vector<Section> sections = describe(scene);
+    const Section* section = find_section(sections, section_name);
+    const Key* key = section ? find_key(*section, name) : nullptr;
+    if (!key) throw SceneError(unknown_key(sections, section_name, name));
+    assign_value(*key, trimmed(assignment.substr(equals + 1)));
+}
+
+}  // namespace
+
+void apply_override(Scene& scene, std::string_view assignment, std::string_view option) {
+    const std::string typed = option.empty() ? fmt::format("--set {}", excerpt(assignment)) : std::string(option);
+    Scene changed = scene;
+    try {
+        assign(changed, assignment);
+    } catch (const SceneError& error) {
+        throw SceneError(fmt::format("{}: {}", typed, error.what()));
+    }
+    scene = changed;
+}
+
+}  // namespace strata::scene

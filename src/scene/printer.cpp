@@ -1,0 +1,69 @@
+#include "src/scene/printer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "src/scene/key_text.h"
+#include "src/scene/keys.h"
+
+namespace strata::scene {
+
+namespace {
+
+constexpr std::size_t kCommentColumn = 44;  // longer assignments do not push the others' comments to the right
+
+struct Line {
+    std::string assignment;
+    std::string comment;
+};
+
+Line line_of(const Key& key, const Key& of_defaults) {
+    return {fmt::format("{} = {}", key.name, value_text(key)),
+            fmt::format("{}; default {}: {}", allowed_text(key), value_text(of_defaults), key.meaning)};
+}
+
+std::string aligned(const std::vector<Line>& lines) {
+    std::size_t column = 0;
+    for (const Line& line : lines) {
+        const std::size_t width = line.assignment.size() + 2;
+        if (width <= kCommentColumn) column = std::max(column, width);
+    }
+    std::string text;
+    for (const Line& line : lines) {
+        const std::size_t width = std::max(column, line.assignment.size() + 2);
+        text += fmt::format("{:<{}}# {}\n", line.assignment, width, line.comment);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string print_scene(const Scene& scene, PrintedKeys keys) {
+    Scene copy = scene;
+    Scene default_scene;
+    const std::vector<Section> sections = describe(copy);
+    const std::vector<Section> defaults = describe(default_scene);
+
+    std::string text = "# After each key: what it allows, its unit, its default and its meaning.\n";
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        const Section& section = sections[i];
+        std::vector<Line> lines;
+        for (std::size_t j = 0; j < section.keys.size(); ++j) {
+            const Key& key = section.keys[j];
+            const Key& of_defaults = defaults[i].keys[j];
+            const bool differs = value_text(key) != value_text(of_defaults);
+            if (keys == PrintedKeys::all || key.matters || differs) lines.push_back(line_of(key, of_defaults));
+        }
+        if (lines.empty()) continue;
+        if (!section.name.empty()) text += fmt::format("\n[{}]  # {}\n", section.name, section.meaning);
+        text += aligned(lines);
+    }
+    return text;
+}
+
+}  // namespace strata::scene

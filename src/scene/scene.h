@@ -1,0 +1,120 @@
+// What a picture is made of: plain values with their defaults. keys.h documents every one (unit, range, meaning).
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+
+namespace strata::scene {
+
+enum class ImageKind { surface, zoneplate, checker, wheel };
+enum class SurfaceKind { terrain, hyperterrain, planet, isosurface };
+enum class BoundKind { ball, box };
+enum class EstimatorKind { none, super, uniform, jittered, stratified, random, sobol, shared, shared_sobol };
+
+struct Film {
+    int width = 1280;
+    int height = 720;
+    double exposure = 0.0;  // stops, for 8- and 16-bit pictures only; EXR stays linear
+};
+
+struct Sampling {
+    EstimatorKind estimator = EstimatorKind::stratified;
+    int N = 4;           // samples a side: N*N a pixel
+    int m = 4;           // order of the B-spline in space
+    int time_order = 1;  // order l of the B-spline in time
+    std::uint64_t seed = 1;
+    double tolerance = 0.1;  // of a ray's hit, in pixel widths at that distance
+};
+
+struct Shutter {
+    double fps = 25.0;
+    double open_s = 0.0;  // 0: an instant, no time samples
+    int frame = 0;
+};
+
+struct Camera {
+    glm::dvec3 position{0.0, 1.0, 0.0};
+    glm::dvec3 look_at{0.0, 1.0, 1.0};
+    glm::dvec3 up{0.0, 1.0, 0.0};
+    double fov_deg = 50.0;  // horizontal
+    double far = 1000.0;    // world units along a ray
+};
+
+// Sum over octaves k of amplitude * gain^k * n(frequency * lacunarity^k * x + offset_k).
+struct Surface {
+    SurfaceKind kind = SurfaceKind::terrain;
+    glm::dvec3 origin{0.0};
+    glm::dvec3 rotation_deg{0.0};  // about x, then y, then z
+    double scale = 1.0;
+    glm::dvec3 spin_axis{0.0, 1.0, 0.0};  // through origin, in world directions; after rotation_deg
+    double spin_deg_per_s = 0.0;
+    int octaves = 8;
+    double lacunarity = 2.0;
+    double gain = 0.5;
+    double amplitude = 0.6;
+    double frequency = 0.5;
+    std::uint64_t seed = 1;
+    double radius = 10.0;               // planet
+    double threshold = 0.0;             // isosurface: solid where the sum exceeds it
+    BoundKind bound = BoundKind::ball;  // isosurface
+    glm::dvec3 bound_size{1.0};         // ball: radius in x; box: half sizes
+};
+
+struct Sun {
+    glm::dvec3 direction{0.4, 0.5, -0.3};  // towards the sun, any length
+    glm::dvec3 colour{1.0, 0.93, 0.82};
+    double intensity = 2.6;
+    bool shadows = true;
+};
+
+struct Sky {
+    glm::dvec3 zenith{0.13, 0.28, 0.62};
+    glm::dvec3 horizon{0.62, 0.74, 0.88};
+    double haze_distance = 0.0;  // world units over which 1 - 1/e of the light becomes horizon; 0: no haze
+};
+
+struct Material {
+    glm::dvec3 low{0.16, 0.20, 0.07};    // meadow: below band_height, gentle slopes
+    glm::dvec3 high{0.86, 0.88, 0.92};   // snow: above band_height, gentle slopes
+    glm::dvec3 steep{0.30, 0.26, 0.22};  // rock: slopes above steep_deg
+    double band_height = 0.25;           // height above the base plane or sphere, in surface units
+    double band_width = 0.1;
+    double steep_deg = 38.0;
+    double steep_width_deg = 12.0;
+};
+
+struct Zoneplate {
+    double rings =
+        0.0;  // periods from the centre to the frame's nearer edge; 0: so many that the last is 2 pixels wide
+};
+
+struct Checker {
+    double square = 1.0;   // world units
+    double height = 1.0;   // of the eye over the plane
+    double horizon = 0.3;  // fraction of the frame's height, from the top
+};
+
+struct Wheel {
+    int spokes = 12;
+    double turns_per_s = 0.5;  // counter-clockwise on the screen
+    double spoke_fill = 0.4;   // fraction of the angle that is spoke
+};
+
+struct Scene {
+    std::string title;
+    ImageKind image = ImageKind::surface;
+    Film film;
+    Sampling sampling;
+    Shutter shutter;
+    Camera camera;
+    Surface surface;
+    Sun sun;
+    Sky sky;
+    Material material;
+    Zoneplate zoneplate;
+    Checker checker;
+    Wheel wheel;
+};
+
+}  // namespace strata::scene

@@ -1,0 +1,263 @@
+#include "src/scene/toml_reader.h"
+
+#define TOML_ENABLE_FORMATTERS 0
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "src/scene/key_lookup.h"
+#include "src/scene/key_text.h"
+#include "src/scene/scene_text.h"
+#include "src/scene/suggest.h"
+
+namespace strata::scene {
+
+namespace {
+
+using MaybeFault = std::optional<Fault>;
+
+std::string located(std::string_view source_name, const Fault& fault) {
+    return fmt::format("{}:{}:{}: {}", source_name, fault.line, fault.column, fault.message);
+}
+
+Fault fault_at(const toml::source_position& at, std::string message) {
+    return {at.line, at.column, std::move(message)};
+}
+
+std::string_view type_name(const toml::node& node) {
+    switch (node.type()) {
+        case toml::node_type::table:
+            return "a table";
+        case toml::node_type::array:
+            return "an array";
+        case toml::node_type::string:
+            return "a string";
+        case toml::node_type::integer:
+            return "an integer";
+        case toml::node_type::floating_point:
+            return "a number with a point";
+        case toml::node_type::boolean:
+            return "true or false";
+        default:
+            return "a date or time";
+    }
+}
+
+// A value as a message repeats it.
+std::string node_text(const toml::node& node) {
+    if (const auto* value = node.as_integer()) return fmt::format("{}", value->get());
+    if (const auto* value = node.as_floating_point()) return number_text(value->get());
+    if (const auto* value = node.as_boolean()) return value->get() ? "true" : "false";
+    if (const auto* value = node.as_string()) return fmt::format("\"{}\"", excerpt(value->get()));
+    if (const auto* array = node.as_array()) return fmt::format("an array of {}", array->size());
+    return std::string(type_name(node));
+}
+
+Fault wrong_type(const Key& key, const toml::node& node) {
+    const bool has_text = node.is_number() || node.is_string() || node.is_boolean();
+    std::string problem = has_text ? fmt::format("wrong type, {}", type_name(node)) : "wrong type";
+    if (std::holds_alternative<int*>(key.field) || std::holds_alternative<std::uint64_t*>(key.field)) {
+        if (node.is_floating_point()) problem = "must be an integer, written without a point or exponent";
+    }
+    return fault_at(node.source().begin, complaint(key, problem, node_text(node)));
+}
+
+Fault bad_value(const Key& key, std::string_view problem, const toml::node& node) {
+    return fault_at(node.source().begin, complaint(key, problem, node_text(node)));
+}
+
+// Stores a node into a key's field; one overload a type of field.
+struct Assign {
+    const Key& key;
+    const toml::node& node;
+
+    MaybeFault operator()(bool* field) const {
+        const auto* value = node.as_boolean();
+        if (!value) return wrong_type(key, node);
+        *field = value->get();
+        return std::nullopt;
+    }
+
+    MaybeFault operator()(int* field) const {
+        const auto* value = node.as_integer();
+        if (!value) return wrong_type(key, node);
+        if (const auto problem = number_problem(key, static_cast<double>(value->get()))) {
+            return bad_value(key, *problem, node);
+        }
+        *field = static_cast<int>(value->get());
+        return std::nullopt;
+    }
+
+    MaybeFault operator()(std::uint64_t* field) const {
+        const auto* value = node.as_integer();
+        if (!value) return wrong_type(key, node);
+        if (value->get() < 0) return bad_value(key, "out of range", node);
+        *field = static_cast<std::uint64_t>(value->get());
+        return std::nullopt;
+    }
+
+    MaybeFault operator()(double* field) const { return assign_number(*field, node); }
+
+    MaybeFault operator()(glm::dvec3* field) const {
+        const auto* array = node.as_array();
+        if (!array) return wrong_type(key, node);
+        if (array->size() != 3) return bad_value(key, "not 3 numbers", node);
+        for (int i = 0; i < 3; ++i) {
+            if (auto fault = assign_number((*field)[i], *array->get(static_cast<std::size_t>(i)))) return fault;
+        }
+        if (const auto problem = field_problem(key)) {
+            return fault_at(node.source().begin, complaint(key, *problem, value_text(key)));
+        }
+        return std::nullopt;
+    }
+
+    MaybeFault operator()(std::string* field) const {
+        const auto* value = node.as_string();
+        if (!value) return wrong_type(key, node);
+        *field = value->get();
+        return std::nullopt;
+    }
+
+    MaybeFault operator()(const Choice& choice) const {
+        const auto* value = node.as_string();
+        if (!value) return wrong_type(key, node);
+        const auto found = std::find(choice.names.begin(), choice.names.end(), value->get());
+        if (found == choice.names.end()) {
+            Fault fault = bad_value(key, "unknown name", node);
+            const std::vector<std::string> names(choice.names.begin(), choice.names.end());
+            if (const auto near = nearest(value->get(), names)) {
+                fault.message += fmt::format(", did you mean '{}'?", *near);
+            }
+            return fault;
+        }
+        choice.set(static_cast<std::size_t>(found - choice.names.begin()));
+        return std::nullopt;
+    }
+
+  private:
+    // An integer or a float, of the key itself or of a component of its vector.
+    MaybeFault assign_number(double& field, const toml::node& number) const {
+        const auto value = number.is_number() ? number.value<double>() : std::nullopt;
+        if (!value) return wrong_type(key, number);
+        if (const auto problem = number_problem(key, *value)) return bad_value(key, *problem, number);
+        field = *value;
+        return std::nullopt;
+    }
+};
+
+MaybeFault assign_node(const Key& key, const toml::node& node) {
+    return std::visit(Assign{key, node}, key.field);
+}
+
+// One name with what the file says about it. node is null for a section of unknown name.
+struct Entry {
+    toml::source_position at;
+    std::string section;
+    std::string name;
+    const toml::node* node;
+};
+
+// Everything in the file, in the order of the file: a table iterates by name.
+std::vector<Entry> entries_in_order(const toml::table& file, std::span<const Section> sections) {
+    std::vector<Entry> entries;
+    for (auto&& [top_key, top_node] : file) {
+        const std::string top(top_key.str());
+        const toml::table* table = top_node.as_table();
+        const bool is_key = find_key(sections.front(), top) != nullptr;
+        if (!table || is_key) {
+            entries.push_back({top_key.source().begin, "", top, &top_node});
+        } else if (top.empty() || !find_section(sections, top)) {
+            entries.push_back({top_key.source().begin, top, "", nullptr});
+        } else {
+            for (auto&& [key, node] : *table) {
+                entries.push_back({key.source().begin, top, std::string(key.str()), &node});
+            }
+        }
+    }
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+        return std::pair(a.at.line, a.at.column) < std::pair(b.at.line, b.at.column);
+    });
+    return entries;
+}
+
+MaybeFault assign_entry(std::span<const Section> sections, const Entry& entry) {
+    if (!entry.node) return fault_at(entry.at, unknown_section(sections, entry.section));
+    const Key* key = find_key(*find_section(sections, entry.section), entry.name);
+    if (key) return assign_node(*key, *entry.node);
+    if (entry.section.empty() && !entry.name.empty() && find_section(sections, entry.name)) {
+        return fault_at(entry.at, fmt::format("{0}: wrong type ({1}), allowed: one section [{0}] of keys", entry.name,
+                                              node_text(*entry.node)));
+    }
+    return fault_at(entry.at, unknown_key(sections, entry.section, entry.name));
+}
+
+MaybeFault read_entries(const toml::table& file, std::span<const Section> sections) {
+    const std::vector<Entry> entries = entries_in_order(file, sections);
+    if (entries.empty()) {
+        return Fault{1, 1,
+                     "empty, allowed: a scene file holds at least one key, such as image = \"surface\"; "
+                     "`strata scenes terrain` prints one with every key explained"};
+    }
+    for (const Entry& entry : entries) {
+        if (auto fault = assign_entry(sections, entry)) return fault;
+    }
+    return std::nullopt;
+}
+
+std::variant<toml::table, Fault> parse(std::string_view text) {
+    if (auto fault = find_unreadable(text)) return *fault;
+    try {
+        return toml::parse(text);
+    } catch (const toml::parse_error& error) {
+        return fault_at(error.source().begin, fmt::format("syntax: {}", error.description()));
+    }
+}
+
+MaybeFault read_into(Scene& scene, std::string_view text) {
+    const auto parsed = parse(text);
+    if (const auto* fault = std::get_if<Fault>(&parsed)) return *fault;
+    return read_entries(std::get<toml::table>(parsed), describe(scene));
+}
+
+bool is_bare_word(std::string_view text) {
+    const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+    const auto is_part = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == ' ' || c == '-' || c == '_' || c == '.';
+    };
+    return !text.empty() && is_letter(text.front()) && std::all_of(text.begin(), text.end(), is_part);
+}
+
+}  // namespace
+
+Scene read_scene(std::string_view text, std::string_view source_name) {
+    Scene scene;
+    if (const auto fault = read_into(scene, text)) throw SceneError(located(source_name, *fault));
+    return scene;
+}
+
+Scene load_scene(const std::string& path) {
+    return read_scene(file_text(path), path);
+}
+
+void assign_value(const Key& key, std::string_view toml_value) {
+    constexpr std::string_view kName = "value";
+    auto parsed = parse(fmt::format("{} = {}", kName, toml_value));
+    if (std::holds_alternative<Fault>(parsed) && is_bare_word(toml_value)) {
+        parsed = parse(fmt::format("{} = {}", kName, quoted(toml_value)));
+    }
+    const auto* table = std::get_if<toml::table>(&parsed);
+    // A line break in the value could start further keys.
+    if (!table || table->size() != 1) {
+        throw SceneError(complaint(key, "not a value", toml_value.empty() ? "nothing" : excerpt(toml_value)));
+    }
+    if (const auto fault = assign_node(key, *table->get(kName))) throw SceneError(fault->message);
+}
+
+}  // namespace strata::scene

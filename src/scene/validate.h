@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string_view>
+
+#include "src/scene/scene.h"
+#include "src/scene/scene_error.h"
+
+namespace strata::scene {
+
+// Lattice cells are counted in double from the surface's origin. Beyond this many, positions inside a cell would be
+// rounded to whole quarters or worse: the noise would turn into steps.
+inline constexpr double kMostCells = 4503599627370496.0;  // 2^52
+
+// Checks a whole scene, however it came about, before any ray is cast: every key against its range, then what no key
+// can tell alone (an eye that looks at itself; octaves too fine for double within reach). SceneError names key, value
+// and what is allowed, after source_name and a colon unless that is empty.
+void validate(const Scene& scene, std::string_view source_name = {});
+
+// The farthest that a camera ray gets from the surface's origin, in surface units.
+double reach(const Scene& scene);
+
+}  // namespace strata::scene

@@ -1,0 +1,35 @@
+// A pinhole camera: right-handed world, screen u to the right and v down, in pixels of the whole frame.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "src/scene/scene.h"
+
+namespace strata::trace {
+
+struct CameraRay {
+    glm::dvec3 direction;  // of unit length
+    double pixel_angle;    // width of a pixel at unit distance along this ray, across the ray, at its narrowest
+};
+
+class Camera {
+  public:
+    // Looking straight along `up`, another axis is taken for up.
+    Camera(const scene::Camera& camera, const scene::Film& film);
+
+    const glm::dvec3& position() const { return position_; }
+
+    CameraRay ray(double u, double v) const {
+        const glm::dvec3 toward =
+            forward_ + right_ * ((u - 0.5 * width_) * pixel_) - up_ * ((v - 0.5 * height_) * pixel_);
+        const double squared = glm::dot(toward, toward);
+        return {toward / glm::sqrt(squared), pixel_ / squared};
+    }
+
+  private:
+    glm::dvec3 position_, forward_, right_, up_;
+    double width_, height_;
+    double pixel_;  // side of a pixel at unit depth
+};
+
+}  // namespace strata::trace

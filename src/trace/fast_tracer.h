@@ -1,0 +1,36 @@
+// The fast tracer: packets of rays on the widest SIMD target, guaranteed like the reference tracer but with a bound per
+// octave instead of one global Lipschitz constant.
+//
+// At a point of the ray each octave has three upper bounds of a n over the next stretch s:
+//   amplitude  a M,   Lipschitz  a (v + G w s),   Taylor  a (v + v' w s + H (w s)^2 / 2),
+// with v, v' the octave's value and slope here. For any choice of one bound an octave, base(s) minus their sum is a
+// quadratic that under-estimates f, so its first root is a safe step. Octaves are chosen by a hinted step length, the
+// quadratic is solved, and both once more at the root. Octaves too fine for the step are not evaluated at all; where
+// the sign of f is in doubt all are, and where float cannot tell it the reference path decides in double.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "src/trace/field.h"
+#include "src/trace/ray.h"
+#include "src/trace/trace_plan.h"
+
+namespace strata::trace {
+
+class FastTracer {
+  public:
+    explicit FastTracer(const Field& field) : field_(field), plan_(field) {}
+
+    // A ray's hit depends on that ray alone, whatever its neighbours in the batch.
+    void trace(std::span<const Ray> rays, std::span<Hit> hits, TraceCounters& counters) const;
+
+    // Gradients of f (before the intersection with a bound) from every octave.
+    void gradients(std::span<const glm::dvec3> x, std::span<glm::vec3> gradient, TraceCounters& counters) const;
+
+  private:
+    const Field& field_;
+    TracePlan plan_;
+};
+
+}  // namespace strata::trace

@@ -1,0 +1,163 @@
+#include "src/trace/field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "noise/bounds.h"
+#include "noise/reference.h"
+
+namespace strata::trace {
+
+namespace {
+
+using scene::SurfaceKind;
+
+std::vector<noise::Octave> live_octaves(const scene::Surface& surface) {
+    std::vector<noise::Octave> octaves = noise::make_octaves({.octaves = surface.octaves,
+                                                              .lacunarity = surface.lacunarity,
+                                                              .gain = surface.gain,
+                                                              .amplitude = surface.amplitude,
+                                                              .frequency = surface.frequency,
+                                                              .seed = surface.seed});
+    // What is below the last bit of a double beside the first octave cannot change the sum.
+    const double least = octaves.front().amplitude * 0x1p-70;
+    std::erase_if(octaves, [&](const noise::Octave& octave) { return octave.amplitude <= least; });
+    return octaves;
+}
+
+// Clipping planes and spheres are moved outwards by this fraction of their distance, far above the rounding of a
+// quadratic's roots in double and far below any tolerance.
+constexpr double kClipSlack = 1e-9;
+
+Interval clip_below(double height, double top, double slope, double limit) {
+    const double padded = top + kClipSlack * (std::abs(top) + std::abs(height));
+    if (height > padded) {
+        if (slope >= 0.0) return {};
+        return {std::min((padded - height) / slope, limit), limit};
+    }
+    return {0.0, slope > 0.0 ? std::min(limit, (padded - height) / slope) : limit};
+}
+
+Interval clip_ball(const glm::dvec3& origin, const glm::dvec3& direction, double radius, double limit) {
+    const double middle = -glm::dot(origin, direction);
+    const glm::dvec3 nearest = origin + middle * direction;
+    const double half_squared = radius * radius - glm::dot(nearest, nearest);
+    if (half_squared <= 0.0) return {};
+    const double half = std::sqrt(half_squared);
+    return {std::max(0.0, middle - half), std::min(limit, middle + half), middle - half > 0.0};
+}
+
+Interval clip_box(const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& half, double limit) {
+    Interval inside{0.0, limit};
+    for (int a = 0; a < 3; ++a) {
+        if (direction[a] == 0.0) {
+            if (std::abs(origin[a]) > half[a]) return {};
+            continue;
+        }
+        const double sign = std::copysign(1.0, direction[a]);
+        const double enter = (-sign * half[a] - origin[a]) / direction[a];
+        if (enter > inside.begin) {
+            inside.begin = enter;
+            inside.enters_bound = true;
+        }
+        inside.end = std::min(inside.end, (sign * half[a] - origin[a]) / direction[a]);
+    }
+    return inside;
+}
+
+}  // namespace
+
+Field::Field(const scene::Surface& surface) : surface_(surface), octaves_(live_octaves(surface)) {
+    const noise::NoiseBounds& bounds = is_planar_noise() ? noise::kBounds2 : noise::kBounds3;
+    const double base_slope = surface_.kind == SurfaceKind::isosurface ? 0.0 : 1.0;
+    lipschitz_ = base_slope;
+    for (const noise::Octave& octave : octaves_) {
+        amplitude_ += octave.amplitude * bounds.value;
+        lipschitz_ += octave.amplitude * octave.frequency * bounds.gradient;
+    }
+}
+
+double Field::base(const glm::dvec3& x) const {
+    switch (surface_.kind) {
+        case SurfaceKind::terrain:
+        case SurfaceKind::hyperterrain:
+            return x.y;
+        case SurfaceKind::planet:
+            return glm::length(x) - surface_.radius;
+        case SurfaceKind::isosurface:
+            return surface_.threshold;
+    }
+    return 0.0;
+}
+
+double Field::octave(std::size_t k, const glm::dvec3& x) const {
+    const noise::Octave& octave = octaves_[k];
+    if (is_planar_noise()) {
+        const auto p = noise::octave_position<2>(octave, {x.x, x.z});
+        return octave.amplitude * noise::reference_value<2>(octave.key, noise::split_position<2>(p));
+    }
+    const auto p = noise::octave_position<3>(octave, {x.x, x.y, x.z});
+    return octave.amplitude * noise::reference_value<3>(octave.key, noise::split_position<3>(p));
+}
+
+double Field::value(const glm::dvec3& x) const {
+    double f = base(x);
+    for (std::size_t k = 0; k < octaves_.size(); ++k) f -= octave(k, x);
+    return f;
+}
+
+glm::dvec3 Field::base_gradient(const glm::dvec3& x) const {
+    constexpr glm::dvec3 kUp{0.0, 1.0, 0.0};
+    if (surface_.kind == SurfaceKind::isosurface) return glm::dvec3(0.0);
+    if (surface_.kind != SurfaceKind::planet) return kUp;
+    const double radius = glm::length(x);
+    return radius > 0.0 ? x / radius : kUp;
+}
+
+glm::dvec3 Field::gradient(const glm::dvec3& x) const {
+    glm::dvec3 gradient = base_gradient(x);
+    for (const noise::Octave& octave : octaves_) {
+        const double slope = octave.amplitude * octave.frequency;
+        if (is_planar_noise()) {
+            const auto p = noise::octave_position<2>(octave, {x.x, x.z});
+            const auto jet = noise::reference_jet<2>(octave.key, noise::split_position<2>(p));
+            gradient -= slope * glm::dvec3(jet.gradient[0], 0.0, jet.gradient[1]);
+        } else {
+            const auto p = noise::octave_position<3>(octave, {x.x, x.y, x.z});
+            const auto jet = noise::reference_jet<3>(octave.key, noise::split_position<3>(p));
+            gradient -= slope * glm::dvec3(jet.gradient[0], jet.gradient[1], jet.gradient[2]);
+        }
+    }
+    return gradient;
+}
+
+Interval Field::clip(const glm::dvec3& origin, const glm::dvec3& direction, double limit) const {
+    switch (surface_.kind) {
+        case SurfaceKind::terrain:
+        case SurfaceKind::hyperterrain:
+            return clip_below(origin.y, amplitude_, direction.y, limit);
+        case SurfaceKind::planet: {
+            Interval shell = clip_ball(origin, direction, (surface_.radius + amplitude_) * (1.0 + kClipSlack), limit);
+            shell.enters_bound = false;
+            return shell;
+        }
+        case SurfaceKind::isosurface:
+            if (surface_.bound == scene::BoundKind::box) {
+                return clip_box(origin, direction, surface_.bound_size, limit);
+            }
+            return clip_ball(origin, direction, surface_.bound_size.x, limit);
+    }
+    return {};
+}
+
+glm::dvec3 Field::bound_normal(const glm::dvec3& x) const {
+    if (surface_.bound == scene::BoundKind::ball) return glm::normalize(x);
+    const glm::dvec3 scaled = glm::abs(x) / surface_.bound_size;
+    glm::dvec3 normal{0.0};
+    const int axis = scaled.x >= scaled.y && scaled.x >= scaled.z ? 0 : scaled.y >= scaled.z ? 1 : 2;
+    normal[axis] = std::copysign(1.0, x[axis]);
+    return normal;
+}
+
+}  // namespace strata::trace

@@ -1,0 +1,69 @@
+// A surface in its own coordinates: f(x) = base(x) - sum_k a_k n_k(w_k x + o_k), solid where f <= 0.
+//
+//   terrain       base = y           noise in 2-D at (x, z)
+//   hyperterrain  base = y           noise in 3-D
+//   planet        base = |x| - R     noise in 3-D
+//   isosurface    base = threshold   noise in 3-D, intersected with a ball or box about the origin
+//
+// This is the reference path: scalar double, by the definition.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "noise/fbm.h"
+#include "src/scene/scene.h"
+
+namespace strata::trace {
+
+// A stretch [begin, end) of a ray; empty when begin >= end. enters_bound: begin lies on the isosurface's bound.
+struct Interval {
+    double begin = 0.0;
+    double end = 0.0;
+    bool enters_bound = false;
+};
+
+class Field {
+  public:
+    explicit Field(const scene::Surface& surface);
+
+    scene::SurfaceKind kind() const { return surface_.kind; }
+    const scene::Surface& surface() const { return surface_; }
+    bool is_planar_noise() const { return surface_.kind == scene::SurfaceKind::terrain; }
+
+    // Octaves that can change the sum in double, coarsest first.
+    const std::vector<noise::Octave>& octaves() const { return octaves_; }
+
+    // Upper bound of |sum_k a_k n_k|.
+    double amplitude() const { return amplitude_; }
+
+    // Upper bound of |grad f|.
+    double lipschitz() const { return lipschitz_; }
+
+    double base(const glm::dvec3& x) const;
+
+    // a_k n_k(w_k x + o_k).
+    double octave(std::size_t k, const glm::dvec3& x) const;
+
+    // f before the intersection with a bound.
+    double value(const glm::dvec3& x) const;
+
+    glm::dvec3 base_gradient(const glm::dvec3& x) const;
+
+    // Gradient of value(), not normalised.
+    glm::dvec3 gradient(const glm::dvec3& x) const;
+
+    // The part of the ray origin + s direction, s in [0, limit), outside of which f > 0. direction is of unit length.
+    Interval clip(const glm::dvec3& origin, const glm::dvec3& direction, double limit) const;
+
+    // Outward normal of the isosurface's bound at a point of it.
+    glm::dvec3 bound_normal(const glm::dvec3& x) const;
+
+  private:
+    scene::Surface surface_;
+    std::vector<noise::Octave> octaves_;
+    double amplitude_ = 0.0;
+    double lipschitz_ = 1.0;
+};
+
+}  // namespace strata::trace

@@ -1,0 +1,87 @@
+// The state of one packet of rays, a lane each, in memory: finished lanes are exchanged for new rays one at a time.
+// Include after hwy/foreach_target.h and hwy/highway.h.
+#if defined(STRATA_TRACE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRATA_TRACE_PACKET_INL_H_
+#undef STRATA_TRACE_PACKET_INL_H_
+#else
+#define STRATA_TRACE_PACKET_INL_H_
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "src/trace/octave-inl.h"
+#include "src/trace/ray.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::trace::HWY_NAMESPACE {
+
+inline constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
+inline constexpr std::size_t kNoRay = std::numeric_limits<std::size_t>::max();
+
+struct Packet {
+    alignas(HWY_MAX_BYTES) double origin[3][kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) double direction[3][kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) double s[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) double s_outside[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) double end[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) double delta0[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) double delta_slope[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) float speed[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) float hint[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) float active[kMaxLanes] = {};  // 1 or 0
+    alignas(HWY_MAX_BYTES) std::uint32_t evaluations[kMaxLanes] = {};
+    std::uint32_t steps[kMaxLanes] = {};
+    std::size_t ray[kMaxLanes] = {};
+    bool enters_bound[kMaxLanes] = {};
+    double reach = 0.0;  // bound of |x| on every axis over all rays taken so far
+    std::size_t active_count = 0;
+};
+
+// Over a height field's 2-D noise only the horizontal part of the ray moves.
+HWY_INLINE float domain_speed(bool is_planar, const glm::dvec3& direction) {
+    if (!is_planar) return 1.0f;
+    return static_cast<float>(std::hypot(direction.x, direction.z) * kRoundUp);
+}
+
+HWY_INLINE void take_ray(Packet& packet, std::size_t lane, const Ray& ray, std::size_t index, const Interval& inside,
+                         const TracePlan& plan, bool is_planar) {
+    for (int a = 0; a < 3; ++a) {
+        packet.origin[a][lane] = ray.origin[a];
+        packet.direction[a][lane] = ray.direction[a];
+        packet.reach = std::max(packet.reach, std::abs(ray.origin[a]) + inside.end);
+    }
+    packet.s[lane] = packet.s_outside[lane] = inside.begin;
+    packet.end[lane] = inside.end;
+    packet.delta0[lane] = ray.delta0;
+    packet.delta_slope[lane] = ray.delta_slope;
+    packet.speed[lane] = domain_speed(is_planar, ray.direction);
+    packet.hint[lane] = plan.first_hint;
+    packet.active[lane] = 1.0f;
+    packet.evaluations[lane] = 0;
+    packet.steps[lane] = 0;
+    packet.ray[lane] = index;
+    packet.enters_bound[lane] = inside.enters_bound;
+    ++packet.active_count;
+}
+
+HWY_INLINE void drop_lane(Packet& packet, std::size_t lane) {
+    packet.active[lane] = 0.0f;
+    packet.ray[lane] = kNoRay;
+    --packet.active_count;
+}
+
+HWY_INLINE WidePoint load_point(const double (&from)[3][kMaxLanes]) {
+    return {load_wide(from[0]), load_wide(from[1]), load_wide(from[2])};
+}
+
+HWY_INLINE WidePoint point_at(const WidePoint& origin, const WidePoint& direction, const Wide& s) {
+    return {mul_add(s, direction.x, origin.x), mul_add(s, direction.y, origin.y), mul_add(s, direction.z, origin.z)};
+}
+
+}  // namespace strata::trace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,52 @@
+#include "src/trace/placement.h"
+
+#include <cmath>
+
+namespace strata::trace {
+
+namespace {
+
+// Rodrigues' formula; exact for multiples of 90 degrees about an axis of the frame.
+glm::dmat3 rotation_about(const glm::dvec3& unit_axis, double radians) {
+    double sine = std::sin(radians), cosine = std::cos(radians);
+    const double quarter = radians / (0.5 * 3.14159265358979323846);
+    if (quarter == std::round(quarter)) {
+        sine = std::round(sine);
+        cosine = std::round(cosine);
+    }
+    const glm::dvec3 a = unit_axis;
+    const glm::dmat3 cross(0.0, a.z, -a.y, -a.z, 0.0, a.x, a.y, -a.x, 0.0);
+    return cosine * glm::dmat3(1.0) + sine * cross + (1.0 - cosine) * glm::outerProduct(a, a);
+}
+
+glm::dmat3 euler_rotation(const glm::dvec3& degrees) {
+    const glm::dvec3 angle = glm::radians(degrees);
+    return rotation_about({0.0, 0.0, 1.0}, angle.z) * rotation_about({0.0, 1.0, 0.0}, angle.y) *
+           rotation_about({1.0, 0.0, 0.0}, angle.x);
+}
+
+}  // namespace
+
+Placement::Placement(const scene::Surface& surface)
+    : origin_(surface.origin),
+      rotation_(euler_rotation(surface.rotation_deg)),
+      spin_axis_(glm::normalize(surface.spin_axis)),
+      spin_rate_(glm::radians(surface.spin_deg_per_s)),
+      scale_(surface.scale) {}
+
+glm::dmat3 Placement::orientation(double t) const {
+    if (!moves()) return rotation_;
+    return rotation_about(spin_axis_, spin_rate_ * t) * rotation_;
+}
+
+Ray Placement::to_local(const glm::dmat3& orientation, const Ray& world) const {
+    Ray local;
+    local.origin = point_to_local(orientation, world.origin);
+    local.direction = glm::normalize(direction_to_local(orientation, world.direction));
+    local.limit = world.limit / scale_;
+    local.delta0 = world.delta0 / scale_;
+    local.delta_slope = world.delta_slope;
+    return local;
+}
+
+}  // namespace strata::trace

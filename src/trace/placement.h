@@ -1,0 +1,41 @@
+// Where a surface stands in the world: x_world = origin + spin(t) * rotation * (scale * x_local).
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "src/scene/scene.h"
+#include "src/trace/ray.h"
+
+namespace strata::trace {
+
+class Placement {
+  public:
+    explicit Placement(const scene::Surface& surface);
+
+    bool moves() const { return spin_rate_ != 0.0; }
+    double scale() const { return scale_; }
+
+    // Orientation at time t in seconds: the columns are the local axes in the world.
+    glm::dmat3 orientation(double t) const;
+
+    glm::dvec3 point_to_local(const glm::dmat3& orientation, const glm::dvec3& x) const {
+        return ((x - origin_) * orientation) / scale_;
+    }
+    glm::dvec3 point_to_world(const glm::dmat3& orientation, const glm::dvec3& x) const {
+        return origin_ + orientation * (scale_ * x);
+    }
+    // The transpose of a rotation is its inverse.
+    static glm::dvec3 direction_to_local(const glm::dmat3& orientation, const glm::dvec3& d) { return d * orientation; }
+
+    // A ray of the world, with limit and deltas in world units, in the surface's coordinates: s_local = s_world / scale.
+    Ray to_local(const glm::dmat3& orientation, const Ray& world) const;
+
+  private:
+    glm::dvec3 origin_;
+    glm::dmat3 rotation_;
+    glm::dvec3 spin_axis_;
+    double spin_rate_;  // radians a second
+    double scale_;
+};
+
+}  // namespace strata::trace

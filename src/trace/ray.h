@@ -1,0 +1,45 @@
+// What a tracer takes and gives, in the surface's own coordinates.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+namespace strata::trace {
+
+// x(s) = origin + s direction, s in [0, limit); direction is of unit length.
+//
+// delta(s) = delta0 + delta_slope * s is the tolerance: a tracer may pass over a stretch of f < 0 that is no longer,
+// and within it of a reported hit lies a point with f <= 0.
+struct Ray {
+    glm::dvec3 origin{0.0};
+    glm::dvec3 direction{0.0, 0.0, 1.0};
+    double limit = 0.0;
+    double delta0 = 0.0;
+    double delta_slope = 0.0;
+};
+
+enum class HitState : std::uint8_t {
+    miss,
+    hit,
+    unresolved,  // the step limit was reached
+};
+
+struct Hit {
+    HitState state = HitState::miss;
+    bool on_bound = false;   // on the isosurface's bounding ball or box: its normal applies
+    double s = 0.0;          // estimate of the root
+    double s_outside = 0.0;  // f > 0 there, s - s_outside <= delta; equal to s where the ray starts inside
+    std::uint32_t steps = 0;
+    std::uint32_t noise_evaluations = 0;
+};
+
+// Steps after which a ray is given up as unresolved.
+inline constexpr std::uint32_t kStepLimit = 1u << 20;
+
+struct TraceCounters {
+    std::uint64_t noise_evaluations = 0;
+    std::uint64_t executed_lanes = 0;
+    std::uint64_t steps = 0;
+};
+
+}  // namespace strata::trace

@@ -1,0 +1,81 @@
+#include <doctest/doctest.h>
+
+#include <random>
+
+#include "src/image/image_error.h"
+#include "src/image/read.h"
+#include "src/image/write.h"
+#include "tests/image/scratch_folder.h"
+
+using namespace strata::image;
+
+namespace {
+
+template <class Body>
+std::string error_of(Body body) {
+    try {
+        body();
+    } catch (const ImageError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("what is no picture is refused by name and reason, whatever its extension") {
+    const ScratchFolder folder;
+    std::mt19937 random(3);
+    std::string junk;
+    for (int i = 0; i < 5000; ++i) junk += static_cast<char>(random());
+    write_bytes(folder / "scene.toml", "title = 'x'\n");
+    write_bytes(folder / "empty.png", "");
+    write_bytes(folder / "text.exr", "not an image\n");
+    write_bytes(folder / "junk.tif", junk);
+    for (const char* name : {"scene.toml", "empty.png", "text.exr", "junk.tif"}) {
+        const auto path = folder / name;
+        CHECK(!is_picture(path));
+        const std::string message = error_of([&] { read_picture(path); });
+        CHECK(message.find(path.string()) != std::string::npos);
+        CHECK(message.find("no EXR, PNG, TIFF or JPEG") != std::string::npos);
+        CHECK(error_of([&] { read_metadata(path, "strata:scene"); }) == message);
+    }
+    CHECK(error_of([&] { read_picture(folder / "missing.png"); }).find("does not exist") != std::string::npos);
+    CHECK(error_of([&] { read_picture(folder.path()); }).find("folder") != std::string::npos);
+    CHECK(!is_picture(folder.path()));
+    CHECK(!is_picture(folder / "missing.png"));
+}
+
+TEST_CASE("a picture is known by its content under any name") {
+    const ScratchFolder folder;
+    Metadata metadata;
+    metadata.set(kSceneKey, "x = 1");
+    for (const char* extension : {".exr", ".png", ".tif", ".jpg"}) {
+        write_picture(folder / (std::string("a") + extension), make_picture(3, 2), metadata);
+        std::filesystem::rename(folder / (std::string("a") + extension), folder / "nameless");
+        CHECK(is_picture(folder / "nameless"));
+        CHECK(read_picture(folder / "nameless").width() == 3);
+        CHECK(read_metadata(folder / "nameless", kSceneKey) == "x = 1");
+    }
+}
+
+TEST_CASE("a truncated picture is an error that names the file") {
+    const ScratchFolder folder;
+    std::mt19937 random(5);
+    Picture picture = make_picture(64, 64);
+    for (float& value : picture.rgb) value = std::uniform_real_distribution<float>()(random);
+    for (const char* extension : {".exr", ".png", ".tif", ".jpg"}) {
+        write_picture(folder / (std::string("whole") + extension), picture);
+        const std::string whole = file_bytes(folder / (std::string("whole") + extension));
+        const auto path = folder / (std::string("damaged") + extension);
+        int refused = 0;
+        for (const double part : {0.02, 0.1, 0.3, 0.5, 0.9}) {
+            write_bytes(path, whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
+            const std::string message = error_of([&] { read_picture(path); });
+            refused += !message.empty();
+            if (!message.empty()) CHECK(message.find(path.string()) != std::string::npos);
+        }
+        MESSAGE(std::string(extension), ": refused ", refused, " of 5 truncated files");
+        CHECK(refused == 5);
+    }
+}

@@ -1,0 +1,61 @@
+// Random scenes and awkward values within the ranges of the key table.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <string>
+#include <variant>
+
+#include "src/scene/keys.h"
+
+namespace strata::scene {
+
+using Random = std::mt19937_64;
+
+inline double random_number(Range range, Random& random) {
+    const double u = std::uniform_real_distribution<double>(0.0, 1.0)(random);
+    const double across = range.min + u * (range.max - range.min);
+    const double near_zero = std::ldexp(u - 0.5, -static_cast<int>(random() % 60));
+    const std::array<double, 7> candidates{
+        range.min, range.max, across, near_zero, std::round(across), -0.0, std::nextafter(range.min, range.max)};
+    const double pick = candidates[random() % candidates.size()];
+    return pick >= range.min && pick <= range.max ? pick : across;
+}
+
+inline std::string random_text(Random& random) {
+    constexpr std::array<const char*, 10> kPieces{"a",    "\"",   "\\",     "\n",     "\t",
+                                                  "\x01", "\x7f", "\u00e9", "\u2603", "# ="};
+    std::string text;
+    for (auto left = random() % 12; left > 0; --left) text += kPieces[random() % kPieces.size()];
+    return text;
+}
+
+inline void randomise(const Key& key, Random& random) {
+    if (auto* flag = std::get_if<bool*>(&key.field)) **flag = random() % 2 == 0;
+    if (auto* count = std::get_if<int*>(&key.field)) **count = static_cast<int>(random_number(key.range, random));
+    if (auto* seed = std::get_if<std::uint64_t*>(&key.field)) **seed = random() % 4 == 0 ? kLargestSeed : random() >> 1;
+    if (auto* number = std::get_if<double*>(&key.field)) **number = random_number(key.range, random);
+    if (auto* text = std::get_if<std::string*>(&key.field)) **text = random_text(random);
+    if (auto* choice = std::get_if<Choice>(&key.field)) choice->set(random() % choice->names.size());
+    if (auto* vector = std::get_if<glm::dvec3*>(&key.field)) {
+        for (int i = 0; i < 3; ++i) (**vector)[i] = random_number(key.range, random);
+        if (key.is_direction) (**vector)[static_cast<int>(random() % 3)] = 0.75;
+    }
+}
+
+// Each key random with the given probability, else at its default.
+inline Scene random_scene(Random& random, double probability) {
+    Scene scene;
+    std::bernoulli_distribution changed(probability);
+    for (const Section& section : describe(scene)) {
+        for (const Key& key : section.keys) {
+            if (changed(random)) randomise(key, random);
+        }
+    }
+    return scene;
+}
+
+}  // namespace strata::scene

@@ -1,0 +1,84 @@
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "src/scene/override.h"
+
+using namespace strata::scene;
+
+namespace {
+
+Scene with(const std::string& assignment) {
+    Scene scene;
+    apply_override(scene, assignment);
+    return scene;
+}
+
+std::string error_of(const std::string& assignment, const std::string& option = "") {
+    Scene scene;
+    try {
+        apply_override(scene, assignment, option);
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+const std::string kSections = "film, sampling, shutter, camera, surface, sun, sky, material, zoneplate, checker, wheel";
+
+}  // namespace
+
+TEST_CASE("an override takes any TOML value, and plain words as strings") {
+    CHECK(with("camera.fov_deg=35").camera.fov_deg == 35.0);
+    CHECK(with(" camera.fov_deg = 3.5e1 ").camera.fov_deg == 35.0);
+    CHECK(with("camera.position=[1, 2.5,-3]").camera.position == glm::dvec3(1.0, 2.5, -3.0));
+    CHECK(with("sampling.estimator=shared-sobol").sampling.estimator == EstimatorKind::shared_sobol);
+    CHECK(with("sampling.estimator=\"sobol\"").sampling.estimator == EstimatorKind::sobol);
+    CHECK(with("image=wheel").image == ImageKind::wheel);
+    CHECK(with("sun.shadows=false").sun.shadows == false);
+    CHECK(with("surface.seed=9223372036854775807").surface.seed == 0x7fff'ffff'ffff'ffffu);
+    CHECK(with("title=Hills at noon v1.2").title == "Hills at noon v1.2");
+    CHECK(with("title=\"a = b\"").title == "a = b");
+    CHECK(with("title='inf'").title == "inf");
+    CHECK(with("title=\"\"\"two\nlines\"\"\"").title == "two\nlines");
+}
+
+TEST_CASE("an override changes that key alone") {
+    const Scene scene = with("surface.seed=7");
+    CHECK(scene.surface.seed == 7);
+    CHECK(scene.sampling.seed == Scene{}.sampling.seed);
+}
+
+TEST_CASE("an override that is none is refused with the option, the key and what was meant") {
+    CHECK(error_of("camera.fov=35") ==
+          "--set camera.fov=35: camera.fov: unknown key, allowed in [camera]: position, look_at, up, fov_deg, far, did "
+          "you mean 'camera.fov_deg'?");
+    CHECK(error_of("camrea.fov_deg=35") ==
+          "--set camrea.fov_deg=35: camrea.fov_deg: unknown key, allowed outside sections: title, image; sections: " +
+              kSections + ", did you mean 'camera.fov_deg'?");
+    CHECK(error_of("fov_deg=35") ==
+          "--set fov_deg=35: fov_deg: unknown key, allowed outside sections: title, image; sections: " + kSections +
+              ", did you mean 'camera.fov_deg'?");
+    CHECK(error_of("camera.fov_deg=350") ==
+          "--set camera.fov_deg=350: camera.fov_deg: out of range (350), allowed: 0.01 to 179 degrees");
+    CHECK(error_of("camera.fov_deg=wide") ==
+          "--set camera.fov_deg=wide: camera.fov_deg: wrong type, a string (\"wide\"), allowed: 0.01 to 179 degrees");
+    CHECK(error_of("sampling.estimator=sobl").ends_with("did you mean 'sobol'?"));
+    CHECK(
+        error_of("sampling.N=4.0", "-N 4.0") ==
+        "-N 4.0: sampling.N: must be an integer, written without a point or exponent (4.0), allowed: integers 1 to 64");
+}
+
+TEST_CASE("what has no key, no value or more than one value is refused") {
+    CHECK(error_of("camera.fov_deg") ==
+          "--set camera.fov_deg: no '=', allowed: section.key=value, such as camera.fov_deg=35");
+    CHECK(error_of("").starts_with("--set : no '='"));
+    CHECK(error_of("=3").starts_with("--set =3: \"\": unknown key"));
+    CHECK(error_of("camera.=3").starts_with("--set camera.=3: camera.\"\": unknown key"));
+    CHECK(error_of("camera.fov_deg=") ==
+          "--set camera.fov_deg=: camera.fov_deg: not a value (nothing), allowed: 0.01 to 179 degrees");
+    CHECK(error_of("camera.fov_deg=35 36").find("camera.fov_deg: not a value (35 36)") != std::string::npos);
+    CHECK(error_of("camera.fov_deg=35\ncamera.far=3").find("not a value (35\\u000Acamera.far=3)") != std::string::npos);
+    CHECK(error_of("camera.position=[1,2").find("not a value ([1,2)") != std::string::npos);
+    CHECK(error_of("title=semi;colon").find("not a value (semi;colon)") != std::string::npos);
+}

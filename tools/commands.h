@@ -1,0 +1,12 @@
+// The subcommands. Each adds itself to the program and runs when it was chosen, leaving its exit code.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace strata::tools {
+
+void add_render_command(CLI::App& program, int& exit_code);
+void add_scenes_command(CLI::App& program, int& exit_code);
+void add_probe_command(CLI::App& program, int& exit_code);
+
+}  // namespace strata::tools

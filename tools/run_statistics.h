@@ -1,0 +1,30 @@
+// What a render did and cost: the summary on the terminal and the --stats file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "src/render/render.h"
+
+namespace strata::tools {
+
+struct RunStatistics {
+    render::Counters counters;
+    double seconds = 0.0;  // tracing, shading, filtering; not set-up or output
+    double cpu_seconds = 0.0;
+    int threads = 0;
+    std::string simd_target;
+    std::uint64_t peak_memory_bytes = 0;
+    std::string scene;
+};
+
+RunStatistics collect(const render::RenderResult& result, int threads, const std::string& scene);
+
+// A few lines for people.
+std::string summary(const RunStatistics& statistics);
+
+// As JSON, written beside and renamed. Throws ImageError when that fails.
+void write_statistics(const std::filesystem::path& path, const RunStatistics& statistics);
+
+}  // namespace strata::tools

@@ -1,0 +1,55 @@
+// The SCENE argument and the options that change a scene, as every subcommand takes them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/render/film.h"
+#include "src/render/surface_image.h"
+#include "src/scene/scene.h"
+
+namespace strata::tools {
+
+// A scene and what a picture's metadata adds to it.
+struct LoadedScene {
+    scene::Scene scene;
+    std::string name;    // of output files: the file's or built-in scene's, without folder and extension
+    std::string source;  // for messages
+    std::optional<std::string> crop, tracer, exr_format;  // as recorded in a picture
+};
+
+class SceneArgument {
+  public:
+    // Adds SCENE, --set and the options that stand for scene keys.
+    void add_to(CLI::App& command);
+
+    // A path, a built-in scene's name, or a picture that strata wrote; overrides applied, validated. Throws SceneError,
+    // ImageError or UsageError.
+    LoadedScene load() const;
+
+  private:
+    LoadedScene find() const;
+
+    std::string scene_ = "terrain";
+    std::optional<std::string> size_, estimator_;
+    std::optional<int> N_, m_, time_order_, frame_;
+    std::optional<std::uint64_t> seed_;
+    std::optional<double> exposure_;
+    std::vector<std::string> sets_;
+};
+
+// "x0,y0,x1,y1", half-open, inside the frame. Throws UsageError.
+render::Window parse_crop(const std::string& text, const scene::Film& film);
+
+// "x,y" inside the frame. Throws UsageError.
+glm::ivec2 parse_pixel(const std::string& text, const scene::Film& film);
+
+// "fast" or "reference". Throws UsageError.
+render::Tracer parse_tracer(const std::string& name);
+
+// Pins the SIMD target. Throws UsageError for one that is not here.
+void use_simd_target(const std::string& name);
+
+}  // namespace strata::tools
