@@ -26,9 +26,7 @@ struct Jet {
     std::array<std::array<double, D>, D> hessian{};  // symmetric
 };
 
-constexpr double fade(double t) {
-    return t * t * t * (t * (6.0 * t - 15.0) + 10.0);
-}
+constexpr double fade(double t) { return t * t * t * (t * (6.0 * t - 15.0) + 10.0); }
 
 // Derivatives of w_0 (side 0) and w_1 (side 1) at t, by order.
 constexpr std::array<double, 4> fade_derivatives(std::size_t side, double t) {

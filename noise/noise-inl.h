@@ -186,8 +186,13 @@ struct Trilinear {
 
 HWY_INLINE Trilinear trilinear(const Bilinear& near, const Bilinear& far, FloatVec w) {
     const FloatVec dw = hn::Sub(far.value, near.value), duw = hn::Sub(far.du, near.du), dvw = hn::Sub(far.dv, near.dv);
-    return {hn::MulAdd(w, dw, near.value), hn::MulAdd(w, duw, near.du), hn::MulAdd(w, dvw, near.dv), dw,
-            lerp(near.duv, far.duv, w),    duw,                         dvw};
+    return {hn::MulAdd(w, dw, near.value),
+            hn::MulAdd(w, duw, near.du),
+            hn::MulAdd(w, dvw, near.dv),
+            dw,
+            lerp(near.duv, far.duv, w),
+            duw,
+            dvw};
 }
 
 struct Jet2 {

@@ -177,8 +177,7 @@ OctaveBase<D> split(const Octave& octave, const std::array<double, D>& origin, s
         floor[a] = std::floor(p);
         fraction[a] = static_cast<float>(p - floor[a]);
     }
-    const std::array<BaseAxis, D> axes = {
-        BaseAxis(static_cast<std::int64_t>(floor[kAxes]), octave.key.axis[kAxes])...};
+    const std::array<BaseAxis, D> axes = {BaseAxis(static_cast<std::int64_t>(floor[kAxes]), octave.key.axis[kAxes])...};
     bool narrow = true;
     for (const BaseAxis& axis : axes) narrow = narrow && axis.narrow;
     return {axes, fraction, static_cast<float>(octave.frequency), static_cast<float>(octave.amplitude), narrow};
@@ -206,9 +205,7 @@ HWY_INLINE FloatVec octave_value(const OctaveBase<3>& base, const std::array<Flo
 template <std::size_t D>
 HWY_INLINE void fbm_batch(std::span<const Octave> octaves, const std::array<double, D>& origin,
                           const std::array<std::span<const float>, D>& offset, std::span<float> value) {
-    for_vectors(value.size(), [&](std::size_t i, std::size_t n) HWY_ATTR {
-        store(hn::Zero(FloatTag()), value, i, n);
-    });
+    for_vectors(value.size(), [&](std::size_t i, std::size_t n) HWY_ATTR { store(hn::Zero(FloatTag()), value, i, n); });
     for (const Octave& octave : octaves) {
         const OctaveBase<D> base = split(octave, origin, std::make_index_sequence<D>());
         const FloatVec amplitude = hn::Set(FloatTag(), base.amplitude);

@@ -7,9 +7,7 @@
 namespace strata::shaders {
 namespace {
 
-double fraction(double x) {
-    return x - std::floor(x);
-}
+double fraction(double x) { return x - std::floor(x); }
 
 bool on_spoke(const scene::Wheel& parameters, double turn, double t) {
     const double pitches = parameters.spokes * (turn - parameters.turns_per_s * t);

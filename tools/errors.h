@@ -5,9 +5,9 @@
 
 namespace strata::tools {
 
-inline constexpr int kExitRuntime = 1;  // something failed on the way
-inline constexpr int kExitUsage = 2;    // the command line or the scene is wrong: nothing was started
-inline constexpr int kExitSignal = 128; // plus the signal's number
+inline constexpr int kExitRuntime = 1;   // something failed on the way
+inline constexpr int kExitUsage = 2;     // the command line or the scene is wrong: nothing was started
+inline constexpr int kExitSignal = 128;  // plus the signal's number
 
 // A command line that cannot be used. what() is one line for the user.
 class UsageError : public std::runtime_error {

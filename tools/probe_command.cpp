@@ -54,9 +54,7 @@ scene::Scene surface_scene(const SceneArgument& argument, const char* what) {
     return scene;
 }
 
-double mid_shutter(const scene::Scene& scene) {
-    return render::estimator_settings(scene).shutter.middle_s();
-}
+double mid_shutter(const scene::Scene& scene) { return render::estimator_settings(scene).shutter.middle_s(); }
 
 void probe_field(const SceneArgument& argument) {
     const scene::Scene scene = surface_scene(argument, "field");
@@ -178,38 +176,46 @@ void probe_samples(const SceneArgument& argument, const std::string& pixel_text)
 }  // namespace
 
 void add_probe_command(CLI::App& program, int&) {
-    CLI::App* probe = program.add_subcommand("probe", "Numbers as JSON lines: the field, rays, the filter, the samples");
+    CLI::App* probe =
+        program.add_subcommand("probe", "Numbers as JSON lines: the field, rays, the filter, the samples");
     probe->require_subcommand(1);
 
     CLI::App* field = probe->add_subcommand(
-        "field", "Reads `x y z [t]` lines; prints f, its gradient and each octave's contribution: f = base - sum of octaves");
+        "field",
+        "Reads `x y z [t]` lines; prints f, its gradient and each octave's contribution: f = base - sum of octaves");
     auto field_scene = std::make_shared<SceneArgument>();
     field_scene->add_to(*field);
     field->footer(
-        "f is in surface units, in double from the reference path, > 0 outside, before the intersection with a bounding\n"
+        "f is in surface units, in double from the reference path, > 0 outside, before the intersection with a "
+        "bounding\n"
         "ball or box. The gradient is that of f by world position. Without t: the middle of the frame's shutter.");
     field->callback([field_scene] { probe_field(*field_scene); });
 
-    CLI::App* ray = probe->add_subcommand("ray", "Traces rays of the camera, or `ox oy oz dx dy dz [t]` lines of stdin");
+    CLI::App* ray =
+        probe->add_subcommand("ray", "Traces rays of the camera, or `ox oy oz dx dy dz [t]` lines of stdin");
     auto ray_request = std::make_shared<RayRequest>();
     ray_request->scene.add_to(*ray);
     ray->add_option("--pixel", ray_request->pixel, "The ray through a pixel's centre at mid-shutter")->type_name("x,y");
-    ray->add_option("--sample", ray_request->sample, "Through this sample of the pixel, counted as `probe samples` does")
+    ray->add_option("--sample", ray_request->sample,
+                    "Through this sample of the pixel, counted as `probe samples` does")
         ->type_name("I");
     ray->add_option("--tracer", ray_request->tracer, "fast or reference")->capture_default_str()->type_name("NAME");
     ray->add_option("--simd", ray_request->simd, "avx512, avx2, sse4 or scalar")->type_name("TARGET");
     ray->footer(
-        "Distances and positions are the world's; direction and normal have unit length. hit is null for a ray that was\n"
+        "Distances and positions are the world's; direction and normal have unit length. hit is null for a ray that "
+        "was\n"
         "not settled within the step limit. noise_evaluations are those of the ray, without the normal's.");
     ray->callback([ray_request] { probe_ray(*ray_request); });
 
-    CLI::App* bspline = probe->add_subcommand("bspline", "Reads a y in [0,1] a line; inverts the B-spline's distribution");
+    CLI::App* bspline =
+        probe->add_subcommand("bspline", "Reads a y in [0,1] a line; inverts the B-spline's distribution");
     auto order = std::make_shared<int>(4);
     bspline->add_option("-m,--order", *order, "Order of the B-spline")
         ->capture_default_str()
         ->check(CLI::Range(filter::kMinOrder, filter::kMaxOrder));
     bspline->footer(
-        "x in [0,m]; bulk_x is the renderer's float table; paper_* is plain Newton iteration on the plain recursion, null\n"
+        "x in [0,m]; bulk_x is the renderer's float table; paper_* is plain Newton iteration on the plain recursion, "
+        "null\n"
         "for m > 20 and where it does not converge within 1000 iterations.");
     bspline->callback([order] { probe_bspline(*order); });
 

@@ -152,9 +152,10 @@ void add_render_command(CLI::App& program, int& exit_code) {
     CLI::App* command = program.add_subcommand("render", "Render a scene to pictures");
     auto request = std::make_shared<RenderRequest>();
     request->scene.add_to(*command);
-    command->add_option("-o,--output", request->outputs,
-                        "A picture to write, by extension .exr, .png, .tif or .jpg (may be repeated); default SCENE.exr "
-                        "and SCENE.png in the current folder")
+    command
+        ->add_option("-o,--output", request->outputs,
+                     "A picture to write, by extension .exr, .png, .tif or .jpg (may be repeated); default SCENE.exr "
+                     "and SCENE.png in the current folder")
         ->type_name("FILE")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -163,7 +164,8 @@ void add_render_command(CLI::App& program, int& exit_code) {
     command->add_option("--threads", request->threads, "Threads; 0: as many as the machine has")->capture_default_str();
     command->add_option("--tile", request->tile, "Side of a tile in pixels; the picture does not depend on it")
         ->capture_default_str();
-    command->add_option("--tracer", request->tracer, "fast, or reference (plain sphere tracing in double); default fast")
+    command
+        ->add_option("--tracer", request->tracer, "fast, or reference (plain sphere tracing in double); default fast")
         ->type_name("NAME");
     command->add_option("--simd", request->simd, "avx512, avx2, sse4 or scalar; default the best that is here")
         ->type_name("TARGET");

@@ -57,7 +57,8 @@ LoadedScene from_picture(const std::filesystem::path& path) {
 }  // namespace
 
 void SceneArgument::add_to(CLI::App& command) {
-    command.add_option("SCENE", scene_, "A scene file, a built-in scene (`strata scenes`), or a picture that strata wrote")
+    command
+        .add_option("SCENE", scene_, "A scene file, a built-in scene (`strata scenes`), or a picture that strata wrote")
         ->capture_default_str();
     command.add_option("--set", sets_, "Replace a scene key: --set camera.fov_deg=35 (TOML; may be repeated)")
         ->type_name("KEY=VALUE")
@@ -66,11 +67,14 @@ void SceneArgument::add_to(CLI::App& command) {
     command.add_option("--size", size_, "Frame in pixels: film.width and film.height")->type_name("WxH");
     command.add_option("-N,--samples", N_, "Samples a side, N*N a pixel: sampling.N")->type_name("N");
     command.add_option("-m,--order", m_, "Order of the B-spline filter: sampling.m")->type_name("M");
-    command.add_option("--estimator", estimator_, "none, super, uniform, jittered, stratified, random, sobol, shared, "
-                                                  "shared-sobol: sampling.estimator")
+    command
+        .add_option("--estimator", estimator_,
+                    "none, super, uniform, jittered, stratified, random, sobol, shared, "
+                    "shared-sobol: sampling.estimator")
         ->type_name("NAME");
     command.add_option("--seed", seed_, "sampling.seed")->type_name("S");
-    command.add_option("--time-order", time_order_, "Order of the B-spline in time: sampling.time_order")->type_name("L");
+    command.add_option("--time-order", time_order_, "Order of the B-spline in time: sampling.time_order")
+        ->type_name("L");
     command.add_option("--frame", frame_, "shutter.frame, from 0")->type_name("K");
     command.add_option("--exposure", exposure_, "Stops, for PNG, TIFF and JPEG: film.exposure")->type_name("STOPS");
 }
@@ -99,7 +103,8 @@ LoadedScene SceneArgument::load() const {
     scene::Scene& scene = loaded.scene;
     for (const std::string& assignment : sets_) scene::apply_override(scene, assignment);
     const auto set = [&scene](const char* key, const auto& value, const char* option) {
-        if (value) scene::apply_override(scene, fmt::format("{}={}", key, *value), fmt::format("{} {}", option, *value));
+        if (value)
+            scene::apply_override(scene, fmt::format("{}={}", key, *value), fmt::format("{} {}", option, *value));
     };
     if (size_) {
         const auto size = parse_integers<2>(*size_, 'x');
@@ -132,8 +137,8 @@ render::Window parse_crop(const std::string& text, const scene::Film& film) {
 glm::ivec2 parse_pixel(const std::string& text, const scene::Film& film) {
     const auto p = parse_integers<2>(text, ',');
     if (!p || (*p)[0] < 0 || (*p)[0] >= film.width || (*p)[1] < 0 || (*p)[1] >= film.height) {
-        throw UsageError(fmt::format("--pixel {}: allowed: x,y with 0 <= x < {} and 0 <= y < {}", text, film.width,
-                                     film.height));
+        throw UsageError(
+            fmt::format("--pixel {}: allowed: x,y with 0 <= x < {} and 0 <= y < {}", text, film.width, film.height));
     }
     return {(*p)[0], (*p)[1]};
 }

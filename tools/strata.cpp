@@ -57,7 +57,8 @@ int fail(const std::exception& error, int exit_code) {
 
 int main(int argc, char** argv) {
     std::setlocale(LC_ALL, "C");
-    CLI::App program("Procedural implicit surfaces, ray cast and antialiased with stratified B-spline samples.", "strata");
+    CLI::App program("Procedural implicit surfaces, ray cast and antialiased with stratified B-spline samples.",
+                     "strata");
     program.set_version_flag("--version", "strata " STRATA_VERSION);
     program.require_subcommand(1);
     program.failure_message(CLI::FailureMessage::simple);

@@ -20,9 +20,7 @@ constexpr std::array<double, kMaxOrder + 1> kFactorial = [] {
     return table;
 }();
 
-double factorial(int k) {
-    return kFactorial[static_cast<std::size_t>(k)];
-}
+double factorial(int k) { return kFactorial[static_cast<std::size_t>(k)]; }
 
 // One order of the spline at x, x-1, x-2, ... down to the last point inside the support. The order is raised by
 // (k-1) n_k(x) = x n_{k-1}(x) + (k-x) n_{k-1}(x-1), without the division: entry s of order k is (k-1)! n_k(x-s), and
@@ -211,8 +209,6 @@ Inversion bspline_invert(int m, double y) {
     return inversion;
 }
 
-double bspline_inverse_cdf(int m, double y) {
-    return bspline_invert(m, y).x;
-}
+double bspline_inverse_cdf(int m, double y) { return bspline_invert(m, y).x; }
 
 }  // namespace strata::filter

@@ -24,18 +24,12 @@ constexpr std::size_t kChunk = 1024;
 // Beyond this distance from the centre a float's own spacing leaves no room for kTableError.
 constexpr double kTableReach = 8.0;  // px
 
-std::int32_t cell_of(float p) {
-    return std::bit_cast<std::int32_t>(p) >> detail::kCellShift;
-}
+std::int32_t cell_of(float p) { return std::bit_cast<std::int32_t>(p) >> detail::kCellShift; }
 
-float cell_start(std::int32_t cell) {
-    return std::bit_cast<float>(cell << detail::kCellShift);
-}
+float cell_start(std::int32_t cell) { return std::bit_cast<float>(cell << detail::kCellShift); }
 
 // The distance of the coordinate from the centre.
-double distance(int m, double p) {
-    return 0.5 * m - bspline_inverse_tail(m, p);
-}
+double distance(int m, double p) { return 0.5 * m - bspline_inverse_tail(m, p); }
 
 // Interpolates distance() at the four Chebyshev points of the cell, t in [-1/2,1/2], by Newton's divided differences.
 detail::Cubic fit_cell(int m, std::int32_t cell) {

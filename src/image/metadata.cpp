@@ -60,15 +60,9 @@ void Metadata::set(std::string_view name, std::string_view value) {
         entries_.emplace_back(name, value);
 }
 
-void Metadata::set(std::string_view name, std::int64_t value) {
-    set(name, fmt::format("{}", value));
-}
-void Metadata::set(std::string_view name, std::uint64_t value) {
-    set(name, fmt::format("{}", value));
-}
-void Metadata::set(std::string_view name, double value) {
-    set(name, fmt::format("{}", value));
-}
+void Metadata::set(std::string_view name, std::int64_t value) { set(name, fmt::format("{}", value)); }
+void Metadata::set(std::string_view name, std::uint64_t value) { set(name, fmt::format("{}", value)); }
+void Metadata::set(std::string_view name, double value) { set(name, fmt::format("{}", value)); }
 
 std::optional<std::string> Metadata::find(std::string_view name) const {
     const auto entry = std::ranges::find(entries_, name, &Entry::first);

@@ -21,13 +21,9 @@ namespace {
     throw ImageError(fmt::format("cannot write \"{}\": {}", path.string(), reason));
 }
 
-std::string system_reason(int error) {
-    return std::generic_category().message(error);
-}
+std::string system_reason(int error) { return std::generic_category().message(error); }
 
-fs::path folder_of(const fs::path& path) {
-    return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
 // Where the bytes go: the end of a chain of symbolic links whose target exists, otherwise `path` itself.
 fs::path resolve_links(const fs::path& path) {

@@ -83,9 +83,7 @@ Picture make_window(Format format, const OIIO::ImageSpec& spec) {
 
 }  // namespace
 
-bool is_picture(const fs::path& path) {
-    return sniff(path).has_value();
-}
+bool is_picture(const fs::path& path) { return sniff(path).has_value(); }
 
 Picture read_picture(const fs::path& path) {
     const OpenPicture opened = open_picture(path);

@@ -30,8 +30,6 @@ void cancel_on_signals(CancelToken& token) {
     sigaction(SIGTERM, &action, nullptr);
 }
 
-int cancelling_signal() {
-    return first_signal.load();
-}
+int cancelling_signal() { return first_signal.load(); }
 
 }  // namespace strata::render

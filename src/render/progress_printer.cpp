@@ -38,9 +38,7 @@ bool predicted_long(const Progress& progress) {
 
 ProgressPrinter::ProgressPrinter(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
 
-ProgressPrinter::~ProgressPrinter() {
-    clear();
-}
+ProgressPrinter::~ProgressPrinter() { clear(); }
 
 ProgressCallback ProgressPrinter::callback() {
     return [this](const Progress& progress) { show(progress); };

@@ -149,8 +149,6 @@ void SharedRender::add_to_strip(const Run& run, int x0, int x1) {
 
 }  // namespace
 
-void render_shared(RenderContext& context, Film& film) {
-    SharedRender(context, film).render();
-}
+void render_shared(RenderContext& context, Film& film) { SharedRender(context, film).render(); }
 
 }  // namespace strata::render

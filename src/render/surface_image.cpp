@@ -75,8 +75,8 @@ void SurfaceImage::trace(std::span<const trace::Ray> rays, std::span<trace::Hit>
     fast_.trace(rays, hits, counters);
 }
 
-void SurfaceImage::normals(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
-                           std::span<glm::vec3> normal, trace::TraceCounters& counters) const {
+void SurfaceImage::normals(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x, std::span<glm::vec3> normal,
+                           trace::TraceCounters& counters) const {
     if (tracer_ == Tracer::reference) {
         for (std::size_t i = 0; i < x.size(); ++i) normal[i] = glm::vec3(field_.gradient(x[i]));
         counters.noise_evaluations += x.size() * field_.octaves().size();

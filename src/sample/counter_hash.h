@@ -32,11 +32,7 @@ constexpr std::uint64_t counter_hash(std::uint64_t stream_key, std::uint64_t ind
 }
 
 // Two independent 32-bit numbers of one hash.
-constexpr std::uint32_t high_word(std::uint64_t hash) {
-    return static_cast<std::uint32_t>(hash >> 32);
-}
-constexpr std::uint32_t low_word(std::uint64_t hash) {
-    return static_cast<std::uint32_t>(hash);
-}
+constexpr std::uint32_t high_word(std::uint64_t hash) { return static_cast<std::uint32_t>(hash >> 32); }
+constexpr std::uint32_t low_word(std::uint64_t hash) { return static_cast<std::uint32_t>(hash); }
 
 }  // namespace strata::sample

@@ -16,9 +16,7 @@ inline constexpr float kBelowOne = 0x1.fffffep-1f;  // the largest float under 1
 
 // The middle of the word-th of 2^32 equal parts of (0,1). As a float its relative precision holds towards 0, so
 // unit_float(~word) is one minus this number and precise near its own 0.
-inline float unit_float(std::uint32_t word) {
-    return (static_cast<float>(word) + 0.5f) * 0x1p-32f;
-}
+inline float unit_float(std::uint32_t word) { return (static_cast<float>(word) + 0.5f) * 0x1p-32f; }
 
 // y = (i + unit(word)) / n, folded. The tail is counted in strata from its own end, never as 1 - y.
 inline float folded_stratum(std::uint32_t i, std::uint32_t n, std::uint32_t word) {
@@ -30,9 +28,7 @@ inline float folded_stratum(std::uint32_t i, std::uint32_t n, std::uint32_t word
 }
 
 // y = unit(word), folded.
-inline float folded_unit(std::uint32_t word) {
-    return folded_stratum(0, 1, word);
-}
+inline float folded_unit(std::uint32_t word) { return folded_stratum(0, 1, word); }
 
 // (i + unit(word)) / n, in [0,1).
 inline float stratum(std::uint32_t i, std::uint32_t n, std::uint32_t word) {
@@ -40,8 +36,6 @@ inline float stratum(std::uint32_t i, std::uint32_t n, std::uint32_t word) {
 }
 
 // y as a number of [0,1), for what needs no precise tail.
-inline double unfold(float q) {
-    return std::signbit(q) ? static_cast<double>(-q) : 1.0 - static_cast<double>(q);
-}
+inline double unfold(float q) { return std::signbit(q) ? static_cast<double>(-q) : 1.0 - static_cast<double>(q); }
 
 }  // namespace strata::sample

@@ -18,9 +18,7 @@ struct Overload : Functions... {
 template <class... Functions>
 Overload(Functions...) -> Overload<Functions...>;
 
-std::string range_text(const Key& key) {
-    return fmt::format("{:g} to {:g}", key.range.min, key.range.max);
-}
+std::string range_text(const Key& key) { return fmt::format("{:g} to {:g}", key.range.min, key.range.max); }
 
 std::string choice_text(const Choice& choice) {
     std::string text;

@@ -19,9 +19,7 @@ bool is_binary(char c) {
     return (byte < 0x20 && c != '\n' && c != '\r' && c != '\t') || byte == 0x7f;
 }
 
-bool continues_code_point(char c) {
-    return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
-}
+bool continues_code_point(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
 std::optional<Fault> find_binary(std::string_view text) {
     const auto found = std::find_if(text.begin(), text.end(), is_binary);

@@ -17,9 +17,7 @@ std::string lower_case(std::string_view text) {
     return lower;
 }
 
-std::size_t allowed_distance(std::size_t length) {
-    return length / 3;
-}
+std::size_t allowed_distance(std::size_t length) { return length / 3; }
 
 }  // namespace
 

@@ -152,9 +152,7 @@ struct Assign {
     }
 };
 
-MaybeFault assign_node(const Key& key, const toml::node& node) {
-    return std::visit(Assign{key, node}, key.field);
-}
+MaybeFault assign_node(const Key& key, const toml::node& node) { return std::visit(Assign{key, node}, key.field); }
 
 // One name with what the file says about it. node is null for a section of unknown name.
 struct Entry {
@@ -242,9 +240,7 @@ Scene read_scene(std::string_view text, std::string_view source_name) {
     return scene;
 }
 
-Scene load_scene(const std::string& path) {
-    return read_scene(file_text(path), path);
-}
+Scene load_scene(const std::string& path) { return read_scene(file_text(path), path); }
 
 void assign_value(const Key& key, std::string_view toml_value) {
     constexpr std::string_view kName = "value";

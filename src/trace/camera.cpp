@@ -13,9 +13,9 @@ glm::dvec3 right_of(const glm::dvec3& forward, const glm::dvec3& up) {
     const glm::dvec3 right = glm::cross(forward, glm::normalize(up));
     if (glm::length(right) > kLeastSine) return glm::normalize(right);
     const glm::dvec3 size = glm::abs(forward);
-    const glm::dvec3 other = size.z <= size.x && size.z <= size.y   ? glm::dvec3(0.0, 0.0, 1.0)
-                             : size.x <= size.y                     ? glm::dvec3(1.0, 0.0, 0.0)
-                                                                    : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 other = size.z <= size.x && size.z <= size.y ? glm::dvec3(0.0, 0.0, 1.0)
+                             : size.x <= size.y                   ? glm::dvec3(1.0, 0.0, 0.0)
+                                                                  : glm::dvec3(0.0, 1.0, 0.0);
     return glm::normalize(glm::cross(forward, other));
 }
 

@@ -41,8 +41,9 @@ HWY_INLINE Base base_at(const Field& field, const WidePoint& x, const WidePoint&
         const Wide squared = mul_add(x.x, x.x, mul_add(x.y, x.y, mul(x.z, x.z)));
         const Wide along = mul_add(x.x, direction.x, mul_add(x.y, direction.y, mul(x.z, direction.z)));
         const Wide radius = each_part([](auto v) HWY_ATTR { return hn::Sqrt(v); }, squared);
-        const Wide slope = each_part(
-            [](auto a, auto r) HWY_ATTR { return hn::Div(a, hn::Max(r, hn::Set(DoubleTag(), 1e-300))); }, along, radius);
+        const Wide slope =
+            each_part([](auto a, auto r) HWY_ATTR { return hn::Div(a, hn::Max(r, hn::Set(DoubleTag(), 1e-300))); },
+                      along, radius);
         const DoubleVec mean = hn::Set(DoubleTag(), field.surface().radius);
         return {to_float(each_part([&](auto r) HWY_ATTR { return hn::Sub(r, mean); }, radius)), to_float(slope)};
     } else {
@@ -139,11 +140,14 @@ HWY_INLINE FloatVec safe_step(const TracePlan& plan, const Packet& packet, const
     const FloatVec certain = hn::Sub(at.f, hn::Add(at.rest, at.error));
     const FloatVec fall = hn::Sub(base_slope, hn::Set(d, plan.slope_error));
     const auto solve = [&](const OctaveBounds& bounds, FloatVec step) HWY_ATTR {
-        const FloatVec root = first_root(hn::Sub(certain, bounds.drop), hn::MulAdd(fall, step, bounds.fall), bounds.bend);
+        const FloatVec root =
+            first_root(hn::Sub(certain, bounds.drop), hn::MulAdd(fall, step, bounds.fall), bounds.bend);
         return hn::Mul(root, step);
     };
+    // The global Lipschitz step is where to look again when the hint was so far off that it gave no step.
     const FloatVec first = solve(at.bounds, hint);
-    const FloatVec again = hn::Min(hn::Max(first, delta), hn::Set(d, 1e15f));
+    const FloatVec least = hn::Mul(hn::Max(certain, hn::Zero(d)), hn::Set(d, plan.inverse_lipschitz));
+    const FloatVec again = hn::Min(hn::Max(hn::Max(first, delta), least), hn::Set(d, 1e15f));
     OctaveBounds bounds = no_bounds();
     for (std::size_t k = 0; k < cache.count; ++k) {
         const TraceOctave& octave = plan.octaves[k];
@@ -196,7 +200,7 @@ HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, 
     hn::Store(at.f, d, f);
     hn::Store(at.slope, d, slope);
     hn::Store(hn::IfThenElseZero(inside, hn::Set(d, 1.0f)), d, hit);
-    hn::Store(hn::Min(hn::Max(safe, delta_float), hn::Set(d, 1e15f)), d, packet.hint);
+    hn::Store(hn::Min(hn::Max(hn::Max(safe, delta_float), hn::Set(d, 1e-30f)), hn::Set(d, 1e15f)), d, packet.hint);
     const Wide clear = add(s, to_wide(safe));
     store_wide(clear, outside);
     store_wide(add(clear, delta), landing);
@@ -232,8 +236,8 @@ HWY_INLINE void refill(const Field& field, const TracePlan& plan, std::span<cons
 }
 
 template <SurfaceKind kKind>
-HWY_NOINLINE void trace_kind(const Field& field, const TracePlan& plan, std::span<const Ray> rays,
-                             std::span<Hit> hits, TraceCounters& counters) {
+HWY_NOINLINE void trace_kind(const Field& field, const TracePlan& plan, std::span<const Ray> rays, std::span<Hit> hits,
+                             TraceCounters& counters) {
     const std::size_t lanes = hn::Lanes(FloatTag());
     Packet packet;
     std::fill_n(packet.ray, lanes, kNoRay);

@@ -39,8 +39,8 @@ HWY_INLINE void subtract_octaves(const TracePlan& plan, GradientBlock& block) {
     hn::Store(gz, d, block.gradient[2]);
 }
 
-void Gradients(const Field& field, const TracePlan& plan, std::span<const glm::dvec3> x,
-               std::span<glm::vec3> gradient, TraceCounters& counters) {
+void Gradients(const Field& field, const TracePlan& plan, std::span<const glm::dvec3> x, std::span<glm::vec3> gradient,
+               TraceCounters& counters) {
     const std::size_t lanes = hn::Lanes(FloatTag());
     for (std::size_t begin = 0; begin < x.size(); begin += lanes) {
         const std::size_t count = std::min(lanes, x.size() - begin);

@@ -27,7 +27,8 @@ class Placement {
     // The transpose of a rotation is its inverse.
     static glm::dvec3 direction_to_local(const glm::dmat3& orientation, const glm::dvec3& d) { return d * orientation; }
 
-    // A ray of the world, with limit and deltas in world units, in the surface's coordinates: s_local = s_world / scale.
+    // A ray of the world, with limit and deltas in world units, in the surface's coordinates: s_local = s_world /
+    // scale.
     Ray to_local(const glm::dmat3& orientation, const Ray& world) const;
 
   private:

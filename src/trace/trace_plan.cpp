@@ -39,11 +39,13 @@ TracePlan::TracePlan(const Field& field) {
         rest += field.octaves()[k].amplitude * bounds.value;
         octaves[k].rest = round_up(rest);
     }
-    // Sums of base and octaves: each of fewer than 4 K + 16 roundings is at most 2^-24 of |base| + twice the amplitudes.
+    // Sums of base and octaves: each of fewer than 4 K + 16 roundings is at most 2^-24 of |base| + twice the
+    // amplitudes.
     const double roundings = 0x1p-24 * static_cast<double>(4 * octaves.size() + 16);
     error_relative = round_up(roundings);
     error_absolute = round_up(kNoiseFloatError * total + roundings * 2.0 * field.amplitude());
     slope_error = round_up(kSlopeFloatError * slopes + roundings * field.lipschitz());
+    inverse_lipschitz = static_cast<float>(1.0 / std::max(field.lipschitz(), 1e-30));
     first_hint = octaves.empty() ? 1.0f : static_cast<float>(0.15 / octaves.front().frequency);
 }
 

@@ -43,13 +43,14 @@ struct TracePlan {
     explicit TracePlan(const Field& field);
 
     std::vector<TraceOctave> octaves;
-    float peak = 0.0f;          // bound of |n|
-    float slope = 0.0f;         // of |dn/ds|, at unit frequency and speed
-    float half_bend = 0.0f;     // half the bound of |d2n/ds2|
+    float peak = 0.0f;            // bound of |n|
+    float slope = 0.0f;           // of |dn/ds|, at unit frequency and speed
+    float half_bend = 0.0f;       // half the bound of |d2n/ds2|
     float error_relative = 0.0f;  // rounding error of f: error_relative * |base| + error_absolute
     float error_absolute = 0.0f;
-    float slope_error = 0.0f;     // of df/ds
-    float first_hint = 0.0f;      // step length to begin with
+    float slope_error = 0.0f;        // of df/ds
+    float inverse_lipschitz = 0.0f;  // of f
+    float first_hint = 0.0f;         // step length to begin with
 };
 
 }  // namespace strata::trace

@@ -110,7 +110,8 @@ HWY_INLINE CellWords cell_words(const Wide& cell) {
 HWY_INLINE WordVec low_word(const CellWords& cell) {
     const WordTag d;
 #if HWY_TARGET == HWY_SCALAR
-    return hn::Set(d, static_cast<std::uint32_t>(hn::GetLane(hn::BitCast(hn::ScalableTag<std::uint64_t>(), cell.sum.part[0]))));
+    return hn::Set(
+        d, static_cast<std::uint32_t>(hn::GetLane(hn::BitCast(hn::ScalableTag<std::uint64_t>(), cell.sum.part[0]))));
 #else
     return hn::ConcatEven(d, hn::BitCast(d, cell.sum.part[1]), hn::BitCast(d, cell.sum.part[0]));
 #endif

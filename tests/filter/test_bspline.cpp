@@ -37,13 +37,9 @@ double relative_error(double value, const Real& exact) {
     return std::abs(static_cast<double>((value - exact) / exact));
 }
 
-double absolute_error(double value, const Real& exact) {
-    return std::abs(static_cast<double>(value - exact));
-}
+double absolute_error(double value, const Real& exact) { return std::abs(static_cast<double>(value - exact)); }
 
-bool is_normal(const Real& exact) {
-    return exact > std::numeric_limits<double>::min();
-}
+bool is_normal(const Real& exact) { return exact > std::numeric_limits<double>::min(); }
 
 }  // namespace
 

@@ -55,9 +55,7 @@ double exact_centred(int m, float q) {
     return std::signbit(q) ? -distance : distance;
 }
 
-bool same_bits(float a, float b) {
-    return std::memcmp(&a, &b, sizeof a) == 0;
-}
+bool same_bits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 std::vector<float> bulk(const BsplineTable& table, const std::vector<float>& q) {
     std::vector<float> x(q.size(), std::numeric_limits<float>::quiet_NaN());

@@ -28,9 +28,7 @@ std::string check_error(const fs::path& path) {
     return "";
 }
 
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // The exit code of `body` run in a child process, so that limits and identity end with it.
 template <class Body>

@@ -7,9 +7,22 @@
 #include "src/image/write.h"
 #include "tests/image/scratch_folder.h"
 
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
+
 using namespace strata::image;
 
 namespace {
+
+// For as long as it lives, this thread's allocations are not looked at for leaks: on a damaged file OpenImageIO's PNG
+// reader leaves by longjmp, past the destructors of its strings.
+struct LibraryMayLeak {
+#ifdef __SANITIZE_ADDRESS__
+    LibraryMayLeak() { __lsan_disable(); }
+    ~LibraryMayLeak() { __lsan_enable(); }
+#endif
+};
 
 template <class Body>
 std::string error_of(Body body) {
@@ -71,7 +84,10 @@ TEST_CASE("a truncated picture is an error that names the file") {
         int refused = 0;
         for (const double part : {0.02, 0.1, 0.3, 0.5, 0.9}) {
             write_bytes(path, whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
-            const std::string message = error_of([&] { read_picture(path); });
+            const std::string message = error_of([&] {
+                [[maybe_unused]] const LibraryMayLeak tolerated;
+                read_picture(path);
+            });
             refused += !message.empty();
             if (!message.empty()) CHECK(message.find(path.string()) != std::string::npos);
         }

@@ -18,9 +18,7 @@ namespace {
 using namespace strata::noise;
 using namespace strata::noise::test;
 
-std::array<double, kOrders> by_order(const NoiseBounds& b) {
-    return {b.value, b.gradient, b.second, b.third};
-}
+std::array<double, kOrders> by_order(const NoiseBounds& b) { return {b.value, b.gradient, b.second, b.third}; }
 
 template <int D>
 std::array<double, kOrders> bounds() {

@@ -31,9 +31,7 @@ std::vector<std::string> whole_scenes() {
     return texts;
 }
 
-std::size_t position_in(const std::string& text, Random& random) {
-    return random() % (text.size() + 1);
-}
+std::size_t position_in(const std::string& text, Random& random) { return random() % (text.size() + 1); }
 
 std::string damaged(std::string text, Random& random) {
     constexpr std::string_view kJunk = "\"'[]{}=.,#\n\r\t\\-+_0e9\xc3\xff\x80naif";

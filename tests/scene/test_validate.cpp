@@ -32,9 +32,7 @@ int first_too_fine(const Surface& surface, double farthest) {
 
 }  // namespace
 
-TEST_CASE("the default scene is valid") {
-    CHECK(error_of(Scene{}) == "");
-}
+TEST_CASE("the default scene is valid") { CHECK(error_of(Scene{}) == ""); }
 
 TEST_CASE("an eye that looks at itself is refused where there is an eye") {
     Scene scene;

@@ -13,9 +13,7 @@ using namespace strata::shaders;
 
 namespace {
 
-double cos_deg(double degrees) {
-    return std::cos(degrees * std::numbers::pi / 180.0);
-}
+double cos_deg(double degrees) { return std::cos(degrees * std::numbers::pi / 180.0); }
 
 bool close(const glm::vec3& a, const glm::vec3& b, double tolerance = 1e-6) {
     for (int c = 0; c < 3; ++c)
@@ -23,9 +21,7 @@ bool close(const glm::vec3& a, const glm::vec3& b, double tolerance = 1e-6) {
     return true;
 }
 
-double luminance(const glm::vec3& c) {
-    return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
-}
+double luminance(const glm::vec3& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 
 }  // namespace
 

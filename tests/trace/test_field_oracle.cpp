@@ -26,9 +26,7 @@ Vec random_direction(std::mt19937_64& random) {
     return d;
 }
 
-Vec along(const Vec& p, const Vec& d, double s) {
-    return {p[0] + s * d[0], p[1] + s * d[1], p[2] + s * d[2]};
-}
+Vec along(const Vec& p, const Vec& d, double s) { return {p[0] + s * d[0], p[1] + s * d[1], p[2] + s * d[2]}; }
 
 Shape random_shape(std::mt19937_64& random) {
     Shape shape;

@@ -57,9 +57,7 @@ Slabs random_slabs(std::mt19937_64& random, const Tolerance& delta, const Span& 
     return slabs;
 }
 
-bool is_thick(const Span& slab, const Tolerance& delta) {
-    return slab.end - slab.begin > delta(slab.end);
-}
+bool is_thick(const Span& slab, const Tolerance& delta) { return slab.end - slab.begin > delta(slab.end); }
 
 }  // namespace
 

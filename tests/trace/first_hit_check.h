@@ -1,0 +1,42 @@
+// The check behind test_first_hit.cpp and its longer sibling.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include "tests/trace/ray_families.h"
+
+namespace strata::trace_test {
+
+inline void check_surface(const scene::Surface& surface, std::size_t count, Random& random) {
+    const trace::Field field(surface);
+    const trace::FastTracer tracer(field);
+    const double pixel_angle = log_uniform(random, 2e-4, 5e-3);
+    const std::vector<trace::Ray> rays = RayFamilies(field, tracer, pixel_angle).make(random, count);
+    std::vector<trace::Hit> hits(rays.size());
+    trace::TraceCounters counters;
+    tracer.trace(rays, hits, counters);
+    const Judgement found = judge(surface, rays, hits);
+    MESSAGE("kind " << static_cast<int>(surface.kind) << ", " << surface.octaves << " octaves, " << found.rays
+                    << " rays, " << found.hits << " hits, thickest stretch passed over " << found.thickest
+                    << " delta (bound 1), undecided " << found.undecided << ", evaluations a ray "
+                    << static_cast<double>(counters.noise_evaluations) / static_cast<double>(rays.size()));
+    INFO("seed " << surface.seed << " amplitude " << surface.amplitude << " frequency " << surface.frequency << " gain "
+                 << surface.gain << " lacunarity " << surface.lacunarity << " last violation from (" << found.origin.x
+                 << ' ' << found.origin.y << ' ' << found.origin.z << ") towards (" << found.direction.x << ' '
+                 << found.direction.y << ' ' << found.direction.z << ')');
+    CHECK(found.missed == 0);
+    CHECK(found.unfounded == 0);
+    CHECK(found.unresolved == 0);
+    CHECK(found.undecided * 1000 <= found.rays);
+    CHECK(found.hits * 10 > found.rays);
+}
+
+inline void check_surfaces(std::size_t random_scenes, std::size_t rays_each) {
+    Random random(20060101);
+    for (int kind = 0; kind < 4; ++kind) {
+        check_surface(surface_of(static_cast<scene::SurfaceKind>(kind)), rays_each, random);
+    }
+    for (std::size_t i = 0; i < random_scenes; ++i) check_surface(random_surface(random), rays_each, random);
+}
+
+}  // namespace strata::trace_test

@@ -1,0 +1,190 @@
+// Surfaces and rays that are hard on a tracer: grazing ones, ones along silhouettes, ones that start in the thick of
+// it.
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "src/trace/fast_tracer.h"
+#include "src/trace/field.h"
+#include "tests/oracles/ray_oracle.h"
+
+namespace strata::trace_test {
+
+using Random = std::mt19937_64;
+
+inline double uniform(Random& random, double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+}
+
+inline double log_uniform(Random& random, double a, double b) {
+    return std::exp(uniform(random, std::log(a), std::log(b)));
+}
+
+inline glm::dvec3 unit_vector(Random& random) {
+    std::normal_distribution<double> normal;
+    return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+}
+
+inline scene::Surface surface_of(scene::SurfaceKind kind) {
+    scene::Surface surface;
+    surface.kind = kind;
+    surface.bound_size = glm::dvec3(3.0, 2.0, 2.5);
+    surface.radius = 5.0;
+    return surface;
+}
+
+// The design range: 1 to 16 octaves, gain 0.3 to 0.7, lacunarity 1.7 to 3, slopes of single octaves to about 10.
+inline scene::Surface random_surface(Random& random) {
+    scene::Surface surface = surface_of(static_cast<scene::SurfaceKind>(random() % 4));
+    surface.octaves = 1 + static_cast<int>(random() % 16);
+    surface.gain = uniform(random, 0.3, 0.7);
+    surface.lacunarity = uniform(random, 1.7, 3.0);
+    const bool bounded = surface.kind == scene::SurfaceKind::isosurface;
+    surface.frequency = log_uniform(random, bounded ? 0.3 : 0.05, 2.0);
+    const double growth = std::max(1.0, surface.gain * surface.lacunarity);
+    const double steepest = 3.75 * surface.frequency * std::pow(growth, surface.octaves - 1);
+    surface.amplitude = std::min(1.5, log_uniform(random, 0.5, 10.0) / steepest);
+    surface.seed = random() >> 1;
+    surface.bound = random() % 2 == 0 ? scene::BoundKind::ball : scene::BoundKind::box;
+    surface.threshold = uniform(random, -0.1, 0.1) * surface.amplitude;
+    return surface;
+}
+
+inline oracle::Shape shape_of(const scene::Surface& s) {
+    oracle::Shape shape;
+    shape.kind = static_cast<oracle::Kind>(s.kind);
+    shape.octaves = s.octaves;
+    shape.lacunarity = s.lacunarity;
+    shape.gain = s.gain;
+    shape.amplitude = s.amplitude;
+    shape.frequency = s.frequency;
+    shape.seed = s.seed;
+    shape.radius = s.radius;
+    shape.threshold = s.threshold;
+    if (s.kind == scene::SurfaceKind::isosurface) {
+        shape.container = s.bound == scene::BoundKind::ball ? oracle::Container::ball : oracle::Container::box;
+        shape.container_size = {s.bound_size.x, s.bound_size.y, s.bound_size.z};
+    }
+    return shape;
+}
+
+// Makes rays in four equal families: seen from outside, from inside the slab, grazing, and next to a silhouette.
+class RayFamilies {
+  public:
+    RayFamilies(const trace::Field& field, const trace::FastTracer& tracer, double pixel_angle)
+        : field_(field), tracer_(tracer), delta_slope_(0.1 * pixel_angle) {}
+
+    std::vector<trace::Ray> make(Random& random, std::size_t count) const {
+        std::vector<trace::Ray> rays;
+        while (rays.size() < count) {
+            const trace::Ray seen = outer_ray(random);
+            const trace::Ray inner = make_ray(near_point(random), unit_vector(random));
+            rays.push_back(seen);
+            rays.push_back(inner);
+            rays.push_back(grazing_ray(random, seen));
+            rays.push_back(silhouette_ray(random, seen));
+        }
+        return rays;
+    }
+
+  private:
+    trace::Ray make_ray(const glm::dvec3& origin, const glm::dvec3& direction) const {
+        return {.origin = origin, .direction = direction, .limit = 40.0, .delta0 = 0.0, .delta_slope = delta_slope_};
+    }
+
+    // About the surface, within a few amplitudes of it.
+    glm::dvec3 near_point(Random& random) const {
+        const double height = uniform(random, -0.5, 1.0) * field_.amplitude();
+        const scene::Surface& s = field_.surface();
+        if (s.kind == scene::SurfaceKind::planet) return (s.radius + height) * unit_vector(random);
+        if (s.kind == scene::SurfaceKind::isosurface)
+            return uniform(random, 0.0, 1.2) * s.bound_size * unit_vector(random);
+        return {uniform(random, -50.0, 50.0), height, uniform(random, -50.0, 50.0)};
+    }
+
+    trace::Ray outer_ray(Random& random) const {
+        const glm::dvec3 target = near_point(random);
+        const scene::Surface& s = field_.surface();
+        glm::dvec3 from = target + unit_vector(random) * uniform(random, 0.5, 12.0);
+        if (s.kind == scene::SurfaceKind::planet) from = glm::normalize(target) * uniform(random, 1.0, 2.5) * s.radius;
+        if (s.kind != scene::SurfaceKind::isosurface && s.kind != scene::SurfaceKind::planet) {
+            from.y = uniform(random, 0.2, 2.0) * field_.amplitude() + 0.05;
+        }
+        const glm::dvec3 toward = target + 0.3 * unit_vector(random) - from;
+        return make_ray(from, glm::normalize(toward));
+    }
+
+    trace::Hit hit(const trace::Ray& ray) const {
+        trace::Hit result;
+        trace::TraceCounters counters;
+        tracer_.trace({&ray, 1}, {&result, 1}, counters);
+        return result;
+    }
+
+    // Along the tangent plane of a point of the surface, just above or below it.
+    trace::Ray grazing_ray(Random& random, const trace::Ray& seen) const {
+        const trace::Hit found = hit(seen);
+        if (found.state != trace::HitState::hit) return outer_ray(random);
+        const glm::dvec3 x = seen.origin + found.s * seen.direction;
+        const glm::dvec3 normal = glm::normalize(field_.gradient(x));
+        const glm::dvec3 tangent = glm::normalize(glm::cross(normal, unit_vector(random)));
+        const double lift = log_uniform(random, 1e-7, 1e-2) * (random() % 3 == 0 ? -1.0 : 1.0);
+        return make_ray(x + lift * normal - uniform(random, 0.0, 5.0) * tangent, tangent);
+    }
+
+    // Between a ray that hits and one that misses, halved until they are a small fraction of a pixel apart.
+    trace::Ray silhouette_ray(Random& random, const trace::Ray& seen) const {
+        trace::Ray a = seen, b = seen;
+        b.direction = glm::normalize(seen.direction + 0.5 * unit_vector(random));
+        const bool a_hits = hit(a).state == trace::HitState::hit;
+        if (a_hits == (hit(b).state == trace::HitState::hit)) return grazing_ray(random, seen);
+        const int halvings = 4 + static_cast<int>(random() % 20);
+        for (int i = 0; i < halvings; ++i) {
+            trace::Ray middle = seen;
+            middle.direction = glm::normalize(a.direction + b.direction);
+            (hit(middle).state == trace::HitState::hit) == a_hits ? a = middle : b = middle;
+        }
+        return random() % 2 == 0 ? a : b;
+    }
+
+    const trace::Field& field_;
+    const trace::FastTracer& tracer_;
+    double delta_slope_;
+};
+
+// Violations of the two promises of a tracer, by the oracle's judgement.
+struct Judgement {
+    std::size_t rays = 0, hits = 0, missed = 0, unfounded = 0, undecided = 0, unresolved = 0;
+    double thickest = 0.0;                   // longest stretch inside that was passed over, in deltas
+    glm::dvec3 origin{0.0}, direction{0.0};  // of the last violation, to replay
+};
+
+inline Judgement judge(const scene::Surface& surface, std::span<const trace::Ray> rays,
+                       std::span<const trace::Hit> hits) {
+    const oracle::FieldOracle field(shape_of(surface));
+    Judgement total;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const trace::Ray& ray = rays[i];
+        const auto delta = [&](double t) { return ray.delta0 + ray.delta_slope * t; };
+        const bool hit = hits[i].state == trace::HitState::hit;
+        ++total.rays;
+        total.hits += hit;
+        total.unresolved += hits[i].state == trace::HitState::unresolved;
+        const oracle::Verdict verdict =
+            oracle::judge_ray(field, {ray.origin.x, ray.origin.y, ray.origin.z},
+                              {ray.direction.x, ray.direction.y, ray.direction.z}, ray.limit, delta, {hit, hits[i].s});
+        total.missed += verdict.missed;
+        total.unfounded += verdict.unfounded;
+        total.undecided += verdict.undecided;
+        total.thickest = std::max(total.thickest, verdict.thickest);
+        if (!verdict.ok()) {
+            total.origin = ray.origin;
+            total.direction = ray.direction;
+        }
+    }
+    return total;
+}
+
+}  // namespace strata::trace_test
