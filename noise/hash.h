@@ -2,11 +2,14 @@
 //
 //   biased = index + 2^31,  lo = low 32 bits, hi = high 32 bits        (so that cells near 0 share one hi)
 //   block  = mix32(hi ^ key[axis])                                     (constant over 2^32 cells)
-//   word   = t ^ (t >> 15),  t = (lo ^ block) * kAxisMultiplier        (one a plane of the lattice)
+//   s      = lo ^ block,  t = (s ^ (s >> 16)) * kAxisMultiplier
+//   word   = t ^ (t >> 15)                                             (one a plane of the lattice)
 //   hash   = (word_x ^ word_y [^ word_z]) * kCornerMultiplier          (one a corner; bits 24.. select the gradient)
 //
-// No period: a shift that leaves hi alone permutes lo ^ block, and a shift that changes hi replaces block by another
-// value of a bijection of hi, so word(c + P) ^ word(c) is constant for no P != 0.
+// No period: the multiplication takes words apart by their carries, so that word(c + P) ^ word(c) is constant for no
+// P != 0. The shift by 16 before it is needed: without, a flip of a high bit of lo passes through the multiplication
+// without a carry, changes word by a constant, and a shift by (2^31, 2^31, 0) cancels it. A shift that changes hi
+// replaces block by another value of a bijection of hi.
 #pragma once
 
 #include <array>
@@ -16,6 +19,7 @@ namespace strata::noise {
 
 inline constexpr std::uint32_t kAxisMultiplier = 0x9E3779B1u;    // prime next to 2^32 / golden ratio
 inline constexpr std::uint32_t kCornerMultiplier = 0x85EBCA77u;  // xxHash's second 32-bit prime
+inline constexpr int kWordShift = 16;
 inline constexpr int kAxisShift = 15;
 inline constexpr int kGradientShift = 24;
 inline constexpr std::uint64_t kCellBias = 0x80000000u;
@@ -60,7 +64,8 @@ constexpr std::uint32_t block_word(std::int64_t index, std::uint32_t key) {
 
 constexpr std::uint32_t plane_word_in_block(std::int64_t index, std::uint32_t block) {
     const auto lo = static_cast<std::uint32_t>(static_cast<std::uint64_t>(index) + kCellBias);
-    const std::uint32_t t = (lo ^ block) * kAxisMultiplier;
+    const std::uint32_t s = lo ^ block;
+    const std::uint32_t t = (s ^ (s >> kWordShift)) * kAxisMultiplier;
     return t ^ (t >> kAxisShift);
 }
 

@@ -36,7 +36,8 @@ struct Planes {
 };
 
 HWY_INLINE WordVec plane_words(WordVec lo, WordVec block) {
-    const WordVec t = hn::Mul(hn::Xor(lo, block), hn::Set(WordTag(), kAxisMultiplier));
+    const WordVec s = hn::Xor(lo, block);
+    const WordVec t = hn::Mul(hn::Xor(s, hn::ShiftRight<kWordShift>(s)), hn::Set(WordTag(), kAxisMultiplier));
     return hn::Xor(t, hn::ShiftRight<kAxisShift>(t));
 }
 

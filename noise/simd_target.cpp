@@ -14,9 +14,15 @@ namespace {
 constexpr std::array<std::pair<std::int64_t, const char*>, 4> kNames = {
     {{HWY_AVX3, "avx512"}, {HWY_AVX2, "avx2"}, {HWY_SSE4, "sse4"}, {HWY_SCALAR, "scalar"}}};
 
+// What this machine runs of what the program holds; asked once, before any pin hides the rest.
 std::int64_t available() {
-    const std::int64_t compiled = HWY_TARGETS;
-    return (hwy::SupportedTargets() & compiled) | (HWY_STATIC_TARGET & compiled);
+    static const std::int64_t targets = (hwy::SupportedTargets() & HWY_TARGETS) | HWY_STATIC_TARGET;
+    return targets;
+}
+
+std::int64_t& pinned() {
+    static std::int64_t target = 0;  // 0: none
+    return target;
 }
 
 }  // namespace
@@ -31,15 +37,15 @@ std::vector<std::string> simd_targets() {
 
 std::string simd_target() {
     for (const auto& [target, name] : kNames) {
-        if (available() & target) return name;
+        if (available() & (pinned() ? pinned() : available()) & target) return name;
     }
     return "unknown";
 }
 
 bool pin_simd_target(const std::string& name) {
-    hwy::SetSupportedTargetsForTest(0);
     for (const auto& [target, known] : kNames) {
         if (name != known || !(available() & target)) continue;
+        pinned() = target;
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
         return true;

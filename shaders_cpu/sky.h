@@ -2,7 +2,7 @@
 //
 //   zenith         radiance straight up, linear RGB                               0.13 0.28 0.62
 //   horizon        radiance level and below, linear RGB                           0.62 0.74 0.88
-//   haze_distance  world units over which 1 - 1/e of the light is lost to haze    0: no haze
+//   haze_distance  surface units over which 1 - 1/e of the light is lost to haze    0: no haze
 //
 //   [sky]
 //   zenith = [0.13, 0.28, 0.62]
@@ -10,7 +10,8 @@
 //   haze_distance = 60.0
 //
 // The gradient is a chosen one, not a measured sky: horizon has the weight cos^16 of the elevation, which is flat at
-// the horizon and half gone 17 degrees above it, as a clear sky looks. "Up" is the world's +y.
+// the horizon and half gone 17 degrees above it, as a clear sky looks. "Up" is +y of the given direction: the renderer
+// gives directions in the surface's own axes, so that a scene may be turned as a whole.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -31,7 +32,7 @@ glm::vec3 sky_radiance(const scene::Sky& sky, const glm::dvec3& direction);
 // it is the cosine-weighted mean of sky_radiance over the sky. The ground gives back a fifth of that.
 glm::vec3 ambient_light(const scene::Sky& sky, double up_dot_normal);
 
-// `radiance` seen through `distance` world units of haze, which takes on the sky's colour in that direction - horizon
+// `radiance` seen through `distance` surface units of haze, which takes on the sky's colour in that direction - horizon
 // for level rays - so that a surface far away melts into the sky beside it. Beer-Lambert extinction. An infinite
 // distance gives the sky.
 glm::vec3 apply_haze(const scene::Sky& sky, const glm::vec3& radiance, double distance, const glm::dvec3& direction);

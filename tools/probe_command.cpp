@@ -1,20 +1,27 @@
 // Numbers for machines: JSON lines on stdout, floating point with 17 significant digits, never NaN.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
+#include <stdexcept>
+#include <vector>
 
 #include "src/filter/bspline.h"
 #include "src/filter/bspline_paper.h"
 #include "src/filter/bspline_table.h"
 #include "src/render/estimator.h"
 #include "src/sample/shutter.h"
+#include "src/scene/key_text.h"
+#include "src/scene/validate.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
 #include "tools/scene_argument.h"
+#include "tools/standard_output.h"
 
 namespace strata::tools {
 
@@ -24,26 +31,51 @@ std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.17g}", 
 
 std::string vector(const glm::dvec3& v) { return fmt::format("[{},{},{}]", number(v.x), number(v.y), number(v.z)); }
 
-// Calls use(numbers) for each line of stdin that holds `least` to `most` finite numbers; other lines, but for empty
-// ones, are errors.
+// What is wrong with a line of stdin.
+struct BadLine {
+    std::string reason;
+};
+
+// The finite numbers of a line, or nothing when it holds anything else.
+std::optional<std::vector<double>> numbers_of(const std::string& line) {
+    std::istringstream words(line);
+    std::vector<double> numbers;
+    for (std::string word; words >> word;) {
+        char* end = nullptr;
+        numbers.push_back(std::strtod(word.c_str(), &end));
+        if (end != word.c_str() + word.size() || !std::isfinite(numbers.back())) return std::nullopt;
+    }
+    return numbers;
+}
+
+// Calls use(numbers) for each line of stdin that holds `least` to `most` finite numbers, and sends its answer off.
+// Other lines, but for empty ones, are errors, as is one that `use` throws BadLine for.
 template <class Use>
 void each_line(std::size_t least, std::size_t most, const char* allowed, const Use& use) {
     std::string line;
     for (std::size_t row = 1; std::getline(std::cin, line); ++row) {
-        std::istringstream words(line);
-        std::vector<double> numbers;
-        bool valid = true;
-        for (std::string word; words >> word;) {
-            char* end = nullptr;
-            numbers.push_back(std::strtod(word.c_str(), &end));
-            valid = valid && *end == '\0' && std::isfinite(numbers.back());
+        const auto numbers = numbers_of(line);
+        if (numbers && numbers->empty()) continue;
+        try {
+            if (!numbers || numbers->size() < least || numbers->size() > most) throw BadLine{allowed};
+            use(*numbers);
+        } catch (const BadLine& bad) {
+            throw UsageError(fmt::format("stdin:{}: '{}', allowed: {}", row, scene::excerpt(line), bad.reason));
         }
-        if (numbers.empty() && valid) continue;
-        if (!valid || numbers.size() < least || numbers.size() > most) {
-            throw UsageError(fmt::format("stdin:{}: '{}', allowed: {}", row, line, allowed));
-        }
-        use(numbers);
+        if (!flush_out()) return;
     }
+    if (std::ferror(stdin) != 0) throw std::runtime_error("cannot read standard input");
+}
+
+// Beyond 2^52 cells of the finest octave, double cannot tell positions in a cell (scene/validate.h).
+void check_within_reach(const trace::Field& field, double distance) {
+    double finest = 0.0;
+    for (const noise::Octave& octave : field.octaves()) finest = std::max(finest, octave.frequency);
+    if (finest * distance <= scene::kMostCells) return;
+    throw BadLine{
+        fmt::format("within {:.3g} surface units of surface.origin, where double tells the finest octave's "
+                    "cells apart",
+                    scene::kMostCells / finest)};
 }
 
 scene::Scene surface_scene(const SceneArgument& argument, const char* what) {
@@ -63,12 +95,13 @@ void probe_field(const SceneArgument& argument) {
     each_line(3, 4, "x y z [t], world units and seconds", [&](const std::vector<double>& in) {
         const glm::dmat3 orientation = placement.orientation(in.size() > 3 ? in[3] : mid_shutter(scene));
         const glm::dvec3 x = placement.point_to_local(orientation, {in[0], in[1], in[2]});
+        check_within_reach(field, glm::length(x));
         std::string octaves;
         for (std::size_t k = 0; k < field.octaves().size(); ++k) {
             octaves += (k ? "," : "") + number(field.octave(k, x));
         }
-        fmt::print("{{\"f\":{},\"gradient\":{},\"octaves\":[{}]}}\n", number(field.value(x)),
-                   vector(orientation * field.gradient(x) / placement.scale()), octaves);
+        print_out(fmt::format("{{\"f\":{},\"gradient\":{},\"octaves\":[{}]}}\n", number(field.value(x)),
+                              vector(orientation * field.gradient(x) / placement.scale()), octaves));
     });
 }
 
@@ -89,29 +122,35 @@ void print_ray(const render::SurfaceImage& image, const trace::Ray& world, doubl
     }
     const bool is_hit = hit.state == trace::HitState::hit;
     const char* verdict = hit.state == trace::HitState::unresolved ? "null" : is_hit ? "true" : "false";
-    fmt::print(
-        "{{\"origin\":{},\"direction\":{},\"hit\":{},\"t\":{},\"position\":{},\"normal\":{},\"steps\":{},"
-        "\"noise_evaluations\":{}}}\n",
-        vector(world.origin), vector(world.direction), verdict, distance, position, normal, hit.steps,
-        hit.noise_evaluations);
+    print_out(
+        fmt::format("{{\"origin\":{},\"direction\":{},\"hit\":{},\"t\":{},\"position\":{},\"normal\":{},\"steps\":{},"
+                    "\"noise_evaluations\":{}}}\n",
+                    vector(world.origin), vector(world.direction), verdict, distance, position, normal, hit.steps,
+                    hit.noise_evaluations));
 }
 
 struct RayRequest {
     SceneArgument scene;
-    std::string pixel, tracer = "fast", simd;
-    std::optional<int> sample;
+    std::string pixel, sample, tracer = "fast", simd;
 };
+
+// The direction times a power of two, so that no square overflows or vanishes.
+glm::dvec3 near_unit_length(const glm::dvec3& direction) {
+    const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    if (largest == 0.0) throw BadLine{"ox oy oz dx dy dz [t], a direction other than zero"};
+    const int exponent = std::ilogb(largest);
+    return {std::scalbn(direction.x, -exponent), std::scalbn(direction.y, -exponent),
+            std::scalbn(direction.z, -exponent)};
+}
 
 void probe_pixel_ray(const RayRequest& request, const scene::Scene& scene, const render::SurfaceImage& image) {
     const glm::ivec2 pixel = parse_pixel(request.pixel, scene.film);
     double u = 0.0, v = 0.0, t = mid_shutter(scene);
-    if (request.sample) {
+    if (!request.sample.empty()) {
         const auto samples = render::Estimator(render::estimator_settings(scene)).probe_samples(pixel.x, pixel.y);
-        const int count = static_cast<int>(samples.size());
-        if (*request.sample < 0 || *request.sample >= count) {
-            throw UsageError(fmt::format("--sample {}: allowed: 0 to {}", *request.sample, count - 1));
-        }
-        const render::ProbeSample& chosen = samples[static_cast<std::size_t>(*request.sample)];
+        const int last = static_cast<int>(samples.size()) - 1;
+        const int index = parse_integer("--sample", request.sample, 0, last);
+        const render::ProbeSample& chosen = samples[static_cast<std::size_t>(index)];
         u = chosen.u;
         v = chosen.v;
         t = chosen.time_s;
@@ -124,19 +163,22 @@ void probe_ray(const RayRequest& request) {
     const scene::Scene scene = surface_scene(request.scene, "ray");
     const render::SurfaceImage image(scene, parse_tracer(request.tracer));
     if (!request.pixel.empty()) return probe_pixel_ray(request, scene, image);
-    if (request.sample) throw UsageError("--sample: allowed: with --pixel only");
+    if (!request.sample.empty()) throw UsageError("--sample: allowed: with --pixel only");
     each_line(6, 7, "ox oy oz dx dy dz [t], a direction other than zero", [&](const std::vector<double>& in) {
-        const glm::dvec3 direction(in[3], in[4], in[5]);
-        if (glm::length(direction) == 0.0) throw UsageError("stdin: direction 0 0 0, allowed: any other");
-        print_ray(image, image.world_ray({in[0], in[1], in[2]}, direction), in.size() > 6 ? in[6] : mid_shutter(scene));
+        const glm::dvec3 origin(in[0], in[1], in[2]);
+        const double distance = glm::length(origin - scene.surface.origin) + scene.camera.far;
+        check_within_reach(image.field(), distance / image.placement().scale());
+        const glm::dvec3 direction = near_unit_length({in[3], in[4], in[5]});
+        print_ray(image, image.world_ray(origin, direction), in.size() > 6 ? in[6] : mid_shutter(scene));
     });
 }
 
-// The folded probability that the bulk table takes: its sign tells the half.
-double bulk_x(const filter::BsplineTable& table, int m, double y) {
-    const auto q = static_cast<float>(y <= 0.5 ? -y : 1.0 - y);
-    float x = 0.0f;
-    table.centred({&q, 1}, {&x, 1});
+// The bulk table takes a folded probability, its sign tells the half. Below its floor the exact inverse stands in, as
+// it does behind the table, but from y itself: float ends at 1e-45.
+double bulk_x(const filter::BsplineTable& table, int m, double y, double exact_x) {
+    const double q = y <= 0.5 ? -y : 1.0 - y;
+    const bool in_table = std::abs(q) >= static_cast<double>(table.table_floor());
+    const float x = in_table ? table.centred(static_cast<float>(q)) : static_cast<float>(exact_x - 0.5 * m);
     return static_cast<double>(x) + 0.5 * m;
 }
 
@@ -145,7 +187,7 @@ void probe_bspline(int m) {
     const filter::BsplineTable table(m);
     each_line(1, 1, "one y in [0,1]", [&](const std::vector<double>& in) {
         const double y = in[0];
-        if (!(y >= 0.0 && y <= 1.0)) throw UsageError(fmt::format("stdin: {}, allowed: y in [0,1]", y));
+        if (!(y >= 0.0 && y <= 1.0)) throw BadLine{"one y in [0,1]"};
         const filter::Inversion exact = filter::bspline_invert(m, y);
         std::string paper_x = "null", paper_iterations = "null";
         if (m <= kMostPaperOrder) {
@@ -155,12 +197,12 @@ void probe_bspline(int m) {
                 paper_iterations = fmt::format("{}", paper.iterations);
             }
         }
-        fmt::print(
-            "{{\"y\":{},\"x\":{},\"cdf\":{},\"pdf\":{},\"iterations\":{},\"bulk_x\":{},\"paper_x\":{},"
-            "\"paper_iterations\":{}}}\n",
-            number(y), number(exact.x), number(filter::bspline_cdf(m, exact.x)),
-            number(filter::bspline_pdf(m, exact.x)), exact.iterations, number(bulk_x(table, m, y)), paper_x,
-            paper_iterations);
+        print_out(
+            fmt::format("{{\"y\":{},\"x\":{},\"cdf\":{},\"pdf\":{},\"iterations\":{},\"bulk_x\":{},\"paper_x\":{},"
+                        "\"paper_iterations\":{}}}\n",
+                        number(y), number(exact.x), number(filter::bspline_cdf(m, exact.x)),
+                        number(filter::bspline_pdf(m, exact.x)), exact.iterations, number(bulk_x(table, m, y, exact.x)),
+                        paper_x, paper_iterations));
     });
 }
 
@@ -168,8 +210,8 @@ void probe_samples(const SceneArgument& argument, const std::string& pixel_text)
     const scene::Scene scene = argument.load().scene;
     const glm::ivec2 pixel = parse_pixel(pixel_text, scene.film);
     for (const auto& s : render::Estimator(render::estimator_settings(scene)).probe_samples(pixel.x, pixel.y)) {
-        fmt::print("{{\"u\":{},\"v\":{},\"time\":{},\"weight\":{}}}\n", number(s.u), number(s.v), number(s.time_s),
-                   number(s.weight));
+        print_out(fmt::format("{{\"u\":{},\"v\":{},\"time\":{},\"weight\":{}}}\n", number(s.u), number(s.v),
+                              number(s.time_s), number(s.weight)));
     }
 }
 
@@ -209,15 +251,13 @@ void add_probe_command(CLI::App& program, int&) {
 
     CLI::App* bspline =
         probe->add_subcommand("bspline", "Reads a y in [0,1] a line; inverts the B-spline's distribution");
-    auto order = std::make_shared<int>(4);
-    bspline->add_option("-m,--order", *order, "Order of the B-spline")
-        ->capture_default_str()
-        ->check(CLI::Range(filter::kMinOrder, filter::kMaxOrder));
+    auto order = std::make_shared<std::string>("4");
+    bspline->add_option("-m,--order", *order, "Order of the B-spline, 1 to 100")->capture_default_str()->type_name("M");
     bspline->footer(
         "x in [0,m]; bulk_x is the renderer's float table; paper_* is plain Newton iteration on the plain recursion, "
         "null\n"
         "for m > 20 and where it does not converge within 1000 iterations.");
-    bspline->callback([order] { probe_bspline(*order); });
+    bspline->callback([order] { probe_bspline(parse_integer("-m", *order, filter::kMinOrder, filter::kMaxOrder)); });
 
     CLI::App* samples = probe->add_subcommand("samples", "Prints every sample with a weight in a pixel");
     auto samples_scene = std::make_shared<SceneArgument>();

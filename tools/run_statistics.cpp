@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <thread>
 
 #include "noise/simd_target.h"
+#include "src/image/image_error.h"
 #include "src/image/output_file.h"
 #include "src/render/progress_printer.h"
 
@@ -27,6 +32,10 @@ std::string scaled(double count) {
     if (count >= 1e6) return fmt::format("{:.2f} M", count / 1e6);
     if (count >= 1e4) return fmt::format("{:.1f} k", count / 1e3);
     return fmt::format("{:.0f}", count);
+}
+
+void refuse_unless(bool fine, const std::filesystem::path& path, const std::string& reason) {
+    if (!fine) throw image::ImageError(fmt::format("cannot write \"{}\": {}", path.string(), reason));
 }
 
 }  // namespace
@@ -58,6 +67,25 @@ std::string summary(const RunStatistics& statistics) {
     return text;
 }
 
+void check_statistics_path(const std::filesystem::path& path) {
+    namespace fs = std::filesystem;
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    std::error_code error;
+    refuse_unless(path.has_filename(), path, "it names no file");
+    refuse_unless(fs::is_directory(folder, error), path, fmt::format("there is no folder \"{}\"", folder.string()));
+    std::string probe = (folder / ".strata-XXXXXX").string();
+    const int descriptor = ::mkstemp(probe.data());
+    refuse_unless(descriptor >= 0, path, "no new file in its folder: " + std::generic_category().message(errno));
+    ::close(descriptor);
+    ::unlink(probe.c_str());
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found) return;
+    refuse_unless(status.type() != fs::file_type::none, path, error.message());
+    refuse_unless(fs::is_regular_file(status), path, "it is not a regular file");
+    const bool file_is_writable = ::access(path.c_str(), W_OK) == 0;
+    refuse_unless(file_is_writable, path, std::generic_category().message(errno));
+}
+
 void write_statistics(const std::filesystem::path& path, const RunStatistics& statistics) {
     const render::Counters& c = statistics.counters;
     const nlohmann::ordered_json json = {{"scene", statistics.scene},
@@ -74,7 +102,8 @@ void write_statistics(const std::filesystem::path& path, const RunStatistics& st
                                          {"seconds", statistics.seconds},
                                          {"cpu_seconds", statistics.cpu_seconds},
                                          {"peak_memory_bytes", statistics.peak_memory_bytes}};
-    const std::string text = json.dump(2) + "\n";
+    // A scene's file name need not be UTF-8.
+    const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
     image::replace_file(path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
 }
 

@@ -8,9 +8,11 @@
 #include <filesystem>
 
 #include "noise/simd_target.h"
+#include "src/image/image_error.h"
 #include "src/image/metadata.h"
 #include "src/image/read.h"
 #include "src/scene/builtin.h"
+#include "src/scene/key_text.h"
 #include "src/scene/override.h"
 #include "src/scene/suggest.h"
 #include "src/scene/toml_reader.h"
@@ -38,8 +40,9 @@ std::optional<std::array<int, kCount>> parse_integers(std::string_view text, cha
 std::string unknown_scene(const std::string& name) {
     std::vector<std::string> names;
     for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) names.push_back(builtin.name);
-    std::string message = fmt::format("{}: no such file, and no built-in scene ({})", name, fmt::join(names, ", "));
-    if (const auto near = scene::nearest(name, names)) message += fmt::format("; did you mean '{}'?", *near);
+    std::string message = fmt::format("{}: no such file, and no built-in scene ({})",
+                                      name.empty() ? "''" : scene::excerpt(name), fmt::join(names, ", "));
+    if (const auto near = scene::nearest(name, names)) message += fmt::format(", did you mean '{}'?", *near);
     return message;
 }
 
@@ -48,10 +51,47 @@ LoadedScene from_picture(const std::filesystem::path& path) {
     if (!text) throw UsageError(path.string() + ": this picture does not say how it was made: strata did not write it");
     LoadedScene loaded;
     loaded.scene = scene::read_scene(*text, path.string());
+    loaded.name = path.stem().string();
+    // Rendered again, an interrupted picture becomes whole.
+    constexpr std::string_view kPartial = ".partial";
+    if (image::read_metadata(path, "strata:partial") && loaded.name.ends_with(kPartial)) {
+        loaded.name.resize(loaded.name.size() - kPartial.size());
+    }
     loaded.crop = image::read_metadata(path, "strata:crop");
     loaded.tracer = image::read_metadata(path, "strata:tracer");
     loaded.exr_format = image::read_metadata(path, "strata:format");
+    loaded.simd_target = image::read_metadata(path, "strata:simd_target");
     return loaded;
+}
+
+// Only .toml goes: a dot may be part of a name.
+std::string name_of_file(const std::filesystem::path& path) {
+    return (path.extension() == ".toml" ? path.stem() : path.filename()).string();
+}
+
+// Options that stand for a scene key. Their values go through the key's own reader, which knows what is allowed.
+struct KeyOption {
+    const char* names;
+    const char* key;
+    const char* type;
+    const char* meaning;
+};
+
+constexpr std::array<KeyOption, 7> kKeyOptions{{
+    {"-N,--samples", "sampling.N", "N", "Samples a side, N*N a pixel, 1 to 64"},
+    {"-m,--order", "sampling.m", "M", "Order of the B-spline filter, 1 (box) to 100"},
+    {"--estimator", "sampling.estimator", "NAME",
+     "none, super, uniform, jittered, stratified, random, sobol, shared or shared-sobol"},
+    {"--seed", "sampling.seed", "S", "Seed of the sample positions, 0 or more"},
+    {"--time-order", "sampling.time_order", "L", "Order of the B-spline filter in time, 1 to 100"},
+    {"--frame", "shutter.frame", "K", "Number of the frame, from 0"},
+    {"--exposure", "film.exposure", "STOPS", "Brightening of PNG, TIFF and JPEG in stops, -64 to 64"},
+}};
+
+// "--seed" of "--seed", "-N" of "-N,--samples".
+std::string shown_name(const KeyOption& option) {
+    const std::string_view names = option.names;
+    return std::string(names.substr(0, names.find(',')));
 }
 
 }  // namespace
@@ -60,76 +100,91 @@ void SceneArgument::add_to(CLI::App& command) {
     command
         .add_option("SCENE", scene_, "A scene file, a built-in scene (`strata scenes`), or a picture that strata wrote")
         ->capture_default_str();
-    command.add_option("--set", sets_, "Replace a scene key: --set camera.fov_deg=35 (TOML; may be repeated)")
+    command
+        .add_option("--set", sets_,
+                    "Replace any scene key: --set camera.fov_deg=35 (a TOML value, words without quotes; may be "
+                    "repeated; `strata scenes NAME` explains the keys)")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_option("--size", size_, "Frame in pixels: film.width and film.height")->type_name("WxH");
-    command.add_option("-N,--samples", N_, "Samples a side, N*N a pixel: sampling.N")->type_name("N");
-    command.add_option("-m,--order", m_, "Order of the B-spline filter: sampling.m")->type_name("M");
     command
-        .add_option("--estimator", estimator_,
-                    "none, super, uniform, jittered, stratified, random, sobol, shared, "
-                    "shared-sobol: sampling.estimator")
-        ->type_name("NAME");
-    command.add_option("--seed", seed_, "sampling.seed")->type_name("S");
-    command.add_option("--time-order", time_order_, "Order of the B-spline in time: sampling.time_order")
-        ->type_name("L");
-    command.add_option("--frame", frame_, "shutter.frame, from 0")->type_name("K");
-    command.add_option("--exposure", exposure_, "Stops, for PNG, TIFF and JPEG: film.exposure")->type_name("STOPS");
+        .add_option("--size", size_, "Frame in pixels, 1 to 65536 a side; default the scene's film.width, film.height")
+        ->type_name("WxH");
+    key_values_.resize(kKeyOptions.size());
+    for (std::size_t i = 0; i < kKeyOptions.size(); ++i) {
+        const KeyOption& option = kKeyOptions[i];
+        command
+            .add_option(option.names, key_values_[i],
+                        fmt::format("{}; default the scene's {}", option.meaning, option.key))
+            ->type_name(option.type);
+    }
 }
 
 LoadedScene SceneArgument::find() const {
     const std::filesystem::path path(scene_);
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    const bool exists = std::filesystem::exists(status);
     LoadedScene loaded;
-    if (const auto builtin = scene::find_builtin(scene_); builtin && !std::filesystem::exists(path)) {
+    // A folder of that name does not hide a built-in scene.
+    const auto builtin = scene::find_builtin(scene_);
+    if (builtin && (!exists || std::filesystem::is_directory(status))) {
         loaded.scene = scene::read_scene(builtin->text, builtin->name);
         loaded.name = builtin->name;
-    } else if (!std::filesystem::exists(path) && path.filename() == path && !path.has_extension()) {
+    } else if (!exists && path.filename() == path && !path.has_extension()) {
         throw UsageError(unknown_scene(scene_));
     } else if (image::is_picture(path)) {
         loaded = from_picture(path);
-        loaded.name = path.stem().string();
     } else {
         loaded.scene = scene::load_scene(scene_);
-        loaded.name = path.stem().string();
+        loaded.name = name_of_file(path);
     }
     loaded.source = scene_;
     return loaded;
 }
 
 LoadedScene SceneArgument::load() const {
-    LoadedScene loaded = find();
+    LoadedScene loaded;
+    try {
+        loaded = find();
+    } catch (const image::ImageError& error) {
+        throw UsageError(error.what());
+    }
     scene::Scene& scene = loaded.scene;
     for (const std::string& assignment : sets_) scene::apply_override(scene, assignment);
-    const auto set = [&scene](const char* key, const auto& value, const char* option) {
-        if (value)
-            scene::apply_override(scene, fmt::format("{}={}", key, *value), fmt::format("{} {}", option, *value));
-    };
     if (size_) {
         const auto size = parse_integers<2>(*size_, 'x');
-        if (!size) throw UsageError(fmt::format("--size {}: allowed: WIDTHxHEIGHT, such as 1280x720", *size_));
-        set("film.width", std::optional((*size)[0]), "--size width");
-        set("film.height", std::optional((*size)[1]), "--size height");
+        if (!size)
+            throw UsageError(fmt::format("--size {}: allowed: WIDTHxHEIGHT, such as 1280x720", scene::excerpt(*size_)));
+        const std::string typed = "--size " + *size_;
+        scene::apply_override(scene, fmt::format("film.width={}", (*size)[0]), typed);
+        scene::apply_override(scene, fmt::format("film.height={}", (*size)[1]), typed);
     }
-    set("sampling.N", N_, "-N");
-    set("sampling.m", m_, "-m");
-    set("sampling.estimator", estimator_, "--estimator");
-    set("sampling.seed", seed_, "--seed");
-    set("sampling.time_order", time_order_, "--time-order");
-    set("shutter.frame", frame_, "--frame");
-    set("film.exposure", exposure_, "--exposure");
+    for (std::size_t i = 0; i < kKeyOptions.size(); ++i) {
+        if (!key_values_[i]) continue;
+        scene::apply_override(scene, fmt::format("{}={}", kKeyOptions[i].key, *key_values_[i]),
+                              fmt::format("{} {}", shown_name(kKeyOptions[i]), scene::excerpt(*key_values_[i])));
+    }
     scene::validate(scene, loaded.source);
     return loaded;
 }
 
-render::Window parse_crop(const std::string& text, const scene::Film& film) {
+int parse_integer(const char* option, const std::string& text, int least, int most) {
+    const auto value = parse_integers<1>(text, ',');
+    if (!value || (*value)[0] < least || (*value)[0] > most) {
+        throw UsageError(
+            fmt::format("{} {}: allowed: a whole number, {} to {}", option, scene::excerpt(text), least, most));
+    }
+    return (*value)[0];
+}
+
+render::Window parse_crop(const std::string& origin, const std::string& text, const scene::Film& film) {
     const auto c = parse_integers<4>(text, ',');
     const bool inside = c && 0 <= (*c)[0] && (*c)[0] < (*c)[2] && (*c)[2] <= film.width && 0 <= (*c)[1] &&
                         (*c)[1] < (*c)[3] && (*c)[3] <= film.height;
     if (!inside) {
-        throw UsageError(fmt::format("--crop {}: allowed: x0,y0,x1,y1 with 0 <= x0 < x1 <= {} and 0 <= y0 < y1 <= {}",
-                                     text, film.width, film.height));
+        throw UsageError(fmt::format("{} {}: allowed: x0,y0,x1,y1 with 0 <= x0 < x1 <= {} and 0 <= y0 < y1 <= {}",
+                                     origin, scene::excerpt(text), film.width, film.height));
     }
     return {(*c)[0], (*c)[1], (*c)[2], (*c)[3]};
 }
@@ -137,8 +192,8 @@ render::Window parse_crop(const std::string& text, const scene::Film& film) {
 glm::ivec2 parse_pixel(const std::string& text, const scene::Film& film) {
     const auto p = parse_integers<2>(text, ',');
     if (!p || (*p)[0] < 0 || (*p)[0] >= film.width || (*p)[1] < 0 || (*p)[1] >= film.height) {
-        throw UsageError(
-            fmt::format("--pixel {}: allowed: x,y with 0 <= x < {} and 0 <= y < {}", text, film.width, film.height));
+        throw UsageError(fmt::format("--pixel {}: allowed: x,y with 0 <= x < {} and 0 <= y < {}", scene::excerpt(text),
+                                     film.width, film.height));
     }
     return {(*p)[0], (*p)[1]};
 }
@@ -146,13 +201,13 @@ glm::ivec2 parse_pixel(const std::string& text, const scene::Film& film) {
 render::Tracer parse_tracer(const std::string& name) {
     if (name == "fast") return render::Tracer::fast;
     if (name == "reference") return render::Tracer::reference;
-    throw UsageError(fmt::format("--tracer {}: allowed: fast, reference", name));
+    throw UsageError(fmt::format("--tracer {}: allowed: fast, reference", scene::excerpt(name)));
 }
 
 void use_simd_target(const std::string& name) {
     if (noise::pin_simd_target(name)) return;
-    throw UsageError(
-        fmt::format("--simd {}: allowed on this machine: {}", name, fmt::join(noise::simd_targets(), ", ")));
+    throw UsageError(fmt::format("--simd {}: allowed on this machine: {}", scene::excerpt(name),
+                                 fmt::join(noise::simd_targets(), ", ")));
 }
 
 }  // namespace strata::tools

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +18,7 @@ struct LoadedScene {
     scene::Scene scene;
     std::string name;    // of output files: the file's or built-in scene's, without folder and extension
     std::string source;  // for messages
-    std::optional<std::string> crop, tracer, exr_format;  // as recorded in a picture
+    std::optional<std::string> crop, tracer, exr_format, simd_target;  // as recorded in a picture
 };
 
 class SceneArgument {
@@ -25,23 +26,24 @@ class SceneArgument {
     // Adds SCENE, --set and the options that stand for scene keys.
     void add_to(CLI::App& command);
 
-    // A path, a built-in scene's name, or a picture that strata wrote; overrides applied, validated. Throws SceneError,
-    // ImageError or UsageError.
+    // A path, a built-in scene's name, or a picture that strata wrote; overrides applied, validated. Throws SceneError
+    // or UsageError.
     LoadedScene load() const;
 
   private:
     LoadedScene find() const;
 
     std::string scene_ = "terrain";
-    std::optional<std::string> size_, estimator_;
-    std::optional<int> N_, m_, time_order_, frame_;
-    std::optional<std::uint64_t> seed_;
-    std::optional<double> exposure_;
+    std::optional<std::string> size_;
     std::vector<std::string> sets_;
+    std::vector<std::optional<std::string>> key_values_;  // one a KeyOption, as typed
 };
 
-// "x0,y0,x1,y1", half-open, inside the frame. Throws UsageError.
-render::Window parse_crop(const std::string& text, const scene::Film& film);
+// An integer of [least,most] given to an option. Throws UsageError.
+int parse_integer(const char* option, const std::string& text, int least, int most);
+
+// "x0,y0,x1,y1", half-open, inside the frame. origin is what the text was given to, for the message. Throws UsageError.
+render::Window parse_crop(const std::string& origin, const std::string& text, const scene::Film& film);
 
 // "x,y" inside the frame. Throws UsageError.
 glm::ivec2 parse_pixel(const std::string& text, const scene::Film& film);

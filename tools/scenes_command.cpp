@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "src/scene/builtin.h"
 #include "src/scene/printer.h"
 #include "src/scene/suggest.h"
 #include "src/scene/toml_reader.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
+#include "tools/standard_output.h"
 
 namespace strata::tools {
 
@@ -15,7 +14,7 @@ namespace {
 
 void list_scenes() {
     for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
-        fmt::print("{:<14}{}\n", builtin.name, builtin.title);
+        print_out(fmt::format("{:<14}{}\n", builtin.name, builtin.title));
     }
 }
 
@@ -26,10 +25,10 @@ void print_builtin(const std::string& name) {
         for (const scene::BuiltinScene& known : scene::builtin_scenes()) names.push_back(known.name);
         const auto near = scene::nearest(name, names);
         throw UsageError(fmt::format("{}: no built-in scene of this name; `strata scenes` lists them{}", name,
-                                     near ? fmt::format("; did you mean '{}'?", *near) : ""));
+                                     near ? fmt::format(", did you mean '{}'?", *near) : ""));
     }
     const scene::Scene scene = scene::read_scene(builtin->text, builtin->name);
-    fmt::print("{}", scene::print_scene(scene, scene::PrintedKeys::all));
+    print_out(scene::print_scene(scene, scene::PrintedKeys::all));
 }
 
 }  // namespace

@@ -1,55 +1,128 @@
 // The strata program: one subcommand a file.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <clocale>
-#include <cstdio>
 #include <exception>
+#include <new>
+#include <sstream>
 
-#include "src/image/image_error.h"
+#include "src/scene/key_text.h"
 #include "src/scene/scene_error.h"
 #include "src/scene/suggest.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
+#include "tools/standard_output.h"
 
 namespace {
 
-// The chosen subcommand, the innermost one.
-const CLI::App& chosen(const CLI::App& program) {
-    const auto commands = program.get_subcommands();
-    return commands.empty() ? program : chosen(*commands.front());
+using Words = std::vector<std::string>;
+
+// The chosen subcommand, the innermost one, and how it is called: "strata probe ray".
+struct Chosen {
+    const CLI::App* command;
+    std::string call;
+};
+
+Chosen chosen(const CLI::App& program) {
+    Chosen innermost{&program, program.get_name()};
+    while (!innermost.command->get_subcommands().empty()) {
+        innermost.command = innermost.command->get_subcommands().front();
+        innermost.call += " " + innermost.command->get_name();
+    }
+    return innermost;
 }
 
-std::vector<std::string> known_words(const CLI::App& command) {
-    std::vector<std::string> words;
+Words subcommands_of(const CLI::App& command) {
+    Words names;
+    for (const CLI::App* sub : command.get_subcommands(nullptr)) names.push_back(sub->get_name());
+    return names;
+}
+
+Words options_of(const CLI::App& command) {
+    Words names;
     for (const CLI::Option* option : command.get_options()) {
-        for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+        for (const std::string& name : option->get_snames()) names.push_back("-" + name);
     }
-    for (const CLI::App* sub : command.get_subcommands(nullptr)) words.push_back(sub->get_name());
-    return words;
+    return names;
 }
 
-// CLI11's message, and the option or command that was probably meant.
-int usage_error(const CLI::App& program, const CLI::ParseError& error, int argc, char** argv) {
-    const CLI::App& command = chosen(program);
-    std::string message = error.what();
-    const std::vector<std::string> words = known_words(command);
-    for (int i = 1; i < argc; ++i) {
-        std::string word = argv[i];
-        word = word.substr(0, word.find('='));
-        if (message.find(word) == std::string::npos) continue;
-        if (const auto near = strata::scene::nearest(word, words); near && *near != word) {
-            message += fmt::format("; did you mean '{}'?", *near);
-            break;
-        }
+std::string suggestion(const std::string& word, const Words& known) {
+    const auto near = strata::scene::nearest(word, known);
+    return near ? fmt::format(", did you mean '{}'?", *near) : "";
+}
+
+// What is wrong with a word that the command has no use for.
+std::string unknown_word(const Chosen& innermost, const std::string& word) {
+    const std::string shown = strata::scene::excerpt(word);
+    if (word.size() > 1 && word.front() == '-') {
+        const std::string name = word.substr(0, word.find('='));
+        const Words options = options_of(*innermost.command);
+        const std::string near = suggestion(name, options);
+        return fmt::format("{}: unknown option of '{}'{}", shown, innermost.call,
+                           near.empty() ? fmt::format(", allowed: {}", fmt::join(options, ", ")) : near);
     }
-    fmt::print(stderr, "strata: {}\nSee '{} --help'.\n", message,
-               &command == &program ? "strata" : "strata " + command.get_name());
+    const Words subcommands = subcommands_of(*innermost.command);
+    if (subcommands.empty()) return fmt::format("{}: one argument too many for '{}'", shown, innermost.call);
+    return fmt::format("{}: unknown command of '{}', allowed: {}{}", shown, innermost.call,
+                       fmt::join(subcommands, ", "), suggestion(word, subcommands));
+}
+
+std::string usage_problem(const Chosen& innermost, const CLI::ParseError& error) {
+    const Words unused = innermost.command->remaining();
+    if (!unused.empty()) return unknown_word(innermost, unused.front());
+    const Words subcommands = subcommands_of(*innermost.command);
+    if (subcommands.empty()) return error.what();
+    return fmt::format("'{}' needs a command, one of: {}", innermost.call, fmt::join(subcommands, ", "));
+}
+
+int usage_error(const CLI::App& program, const CLI::ParseError& error) {
+    const Chosen innermost = chosen(program);
+    strata::tools::print_error(fmt::format("{}\nSee '{} --help'.", usage_problem(innermost, error), innermost.call));
     return strata::tools::kExitUsage;
 }
 
-int fail(const std::exception& error, int exit_code) {
-    fmt::print(stderr, "strata: {}\n", error.what());
+int fail(const char* message, int exit_code) {
+    strata::tools::print_error(message);
+    return exit_code;
+}
+
+// --help and --version.
+int answer(const CLI::App& program, const CLI::Success& request) {
+    std::ostringstream text;
+    program.exit(request, text, text);
+    strata::tools::print_out(text.str());
+    return 0;
+}
+
+int run(int argc, char** argv) {
+    CLI::App program("Procedural implicit surfaces, ray cast and antialiased with stratified B-spline samples.",
+                     "strata");
+    program.set_version_flag("--version", "strata " STRATA_VERSION, "Print the program's version");
+    program.require_subcommand(1);
+    int exit_code = 0;
+    strata::tools::add_render_command(program, exit_code);
+    strata::tools::add_scenes_command(program, exit_code);
+    strata::tools::add_probe_command(program, exit_code);
+    // Commands added later would inherit it.
+    program.footer("'strata COMMAND --help' explains each. `strata render` without more renders the scene terrain.");
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::Success& request) {
+        return answer(program, request);
+    } catch (const CLI::ParseError& error) {
+        return usage_error(program, error);
+    } catch (const strata::tools::UsageError& error) {
+        return fail(error.what(), strata::tools::kExitUsage);
+    } catch (const strata::scene::SceneError& error) {
+        return fail(error.what(), strata::tools::kExitUsage);
+    } catch (const std::bad_alloc&) {
+        return fail("out of memory; a smaller --size, or --crop, needs less", strata::tools::kExitRuntime);
+    } catch (const std::exception& error) {
+        return fail(error.what(), strata::tools::kExitRuntime);
+    }
     return exit_code;
 }
 
@@ -57,27 +130,6 @@ int fail(const std::exception& error, int exit_code) {
 
 int main(int argc, char** argv) {
     std::setlocale(LC_ALL, "C");
-    CLI::App program("Procedural implicit surfaces, ray cast and antialiased with stratified B-spline samples.",
-                     "strata");
-    program.set_version_flag("--version", "strata " STRATA_VERSION);
-    program.require_subcommand(1);
-    program.failure_message(CLI::FailureMessage::simple);
-    int exit_code = 0;
-    strata::tools::add_render_command(program, exit_code);
-    strata::tools::add_scenes_command(program, exit_code);
-    strata::tools::add_probe_command(program, exit_code);
-    try {
-        program.parse(argc, argv);
-    } catch (const CLI::Success& success) {
-        return program.exit(success);
-    } catch (const CLI::ParseError& error) {
-        return usage_error(program, error, argc, argv);
-    } catch (const strata::tools::UsageError& error) {
-        return fail(error, strata::tools::kExitUsage);
-    } catch (const strata::scene::SceneError& error) {
-        return fail(error, strata::tools::kExitUsage);
-    } catch (const std::exception& error) {
-        return fail(error, strata::tools::kExitRuntime);
-    }
-    return exit_code;
+    strata::tools::guard_standard_streams();
+    return strata::tools::finish_output(run(argc, argv));
 }

@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -114,20 +115,40 @@ OIIO::ImageSpec make_spec(const std::filesystem::path& path, Format format, cons
     return spec;
 }
 
+// Rows converted at once: a multiple of the 16 that EXR's zip packs together, and little memory beside the picture.
+constexpr int kStripRows = 64;
+
+// Writes the picture strip by strip through convert(linear values) -> a vector of what OpenImageIO is to be given.
+template <class Convert>
+bool write_strips(OIIO::ImageOutput& output, const Picture& picture, OIIO::TypeDesc type, const Convert& convert) {
+    const std::span<const float> rgb(picture.rgb);
+    const std::size_t row_values = 3 * static_cast<std::size_t>(picture.width());
+    const int top = output.spec().y;
+    for (int y = 0; y < picture.height(); y += kStripRows) {
+        const int rows = std::min(kStripRows, picture.height() - y);
+        const auto strip = convert(rgb.subspan(static_cast<std::size_t>(y) * row_values,
+                                               static_cast<std::size_t>(rows) * row_values));
+        if (!output.write_scanlines(top + y, top + y + rows, 0, type, strip.data())) return false;
+    }
+    return true;
+}
+
 bool write_pixels(OIIO::ImageOutput& output, Format format, const Picture& picture, const WriteOptions& options) {
+    const double exposure = options.exposure;
     switch (format) {
         case Format::exr:
             if (options.exr_format == ExrFormat::half)
-                return output.write_image(OIIO::TypeDesc::FLOAT, clamp_to_half(picture.rgb).data());
-            return output.write_image(OIIO::TypeDesc::FLOAT, picture.rgb.data());
+                return write_strips(output, picture, OIIO::TypeDesc::FLOAT, clamp_to_half);
+            return write_strips(output, picture, OIIO::TypeDesc::FLOAT, [](std::span<const float> v) { return v; });
         case Format::tiff:
-            return output.write_image(OIIO::TypeDesc::UINT16,
-                                      quantise<std::uint16_t>(picture.rgb, options.exposure).data());
+            return write_strips(output, picture, OIIO::TypeDesc::UINT16,
+                                [&](std::span<const float> v) { return quantise<std::uint16_t>(v, exposure); });
         case Format::png:
         case Format::jpeg:
             break;
     }
-    return output.write_image(OIIO::TypeDesc::UINT8, quantise<std::uint8_t>(picture.rgb, options.exposure).data());
+    return write_strips(output, picture, OIIO::TypeDesc::UINT8,
+                        [&](std::span<const float> v) { return quantise<std::uint8_t>(v, exposure); });
 }
 
 }  // namespace
@@ -143,6 +164,7 @@ std::vector<unsigned char> encode(const std::filesystem::path& path, const Pictu
     // All that can be wrong is found before the encoder exists: libjpeg ends the process when one is abandoned.
     const OIIO::ImageSpec spec = make_spec(path, format, picture, metadata, options);
     std::vector<unsigned char> bytes;
+    bytes.reserve(spec.image_bytes());  // pictures rarely grow by compression; doubling would hold two copies at once
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name_of(format));
     if (!output) fail(path, OIIO::geterror());

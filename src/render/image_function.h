@@ -8,7 +8,8 @@
 
 namespace strata::render {
 
-// Work done, exact and independent of threads and tiles. executed_lanes also counts idle SIMD lanes.
+// Work done, exact and independent of threads and tiles; but for executed_lanes, which also counts SIMD lanes that idle
+// and so depends on how rays came to share packets.
 struct Counters {
     std::uint64_t rays = 0;  // image-function samples evaluated
     std::uint64_t shadow_rays = 0;

@@ -24,7 +24,7 @@ glm::vec3 weighted_mean(std::span<const glm::vec3> radiance, std::span<const dou
 }
 
 // The pixels of worker.owners; false if cancelled.
-bool render_pixels(const RenderContext& context, Worker& worker, Film& film) {
+bool render_pixels(RenderContext& context, Worker& worker, Film& film) {
     context.estimator.pixel_samples(worker.owners, worker.samples);
     worker.radiance.resize(worker.samples.u.size());
     if (!context.evaluate(worker, worker.radiance)) return false;
@@ -35,20 +35,22 @@ bool render_pixels(const RenderContext& context, Worker& worker, Film& film) {
         const std::span<const double> pixel_weight = weight.empty() ? weight : weight.subspan(p * n, n);
         film.finish(worker.owners[p].x, worker.owners[p].y, weighted_mean(radiance.subspan(p * n, n), pixel_weight));
     }
+    const auto pixels = static_cast<std::int64_t>(worker.owners.size());
+    context.progress.add(pixels, pixels * context.estimator.sample_count());
     worker.owners.clear();
     return true;
 }
 
-bool render_tile(const RenderContext& context, Worker& worker, const Window& tile, Film& film) {
+void render_tile(RenderContext& context, Worker& worker, const Window& tile, Film& film) {
     const std::size_t batch = context.owners_a_batch();
     worker.owners.clear();
     for (int y = tile.y0; y < tile.y1; ++y) {
         for (int x = tile.x0; x < tile.x1; ++x) {
             worker.owners.emplace_back(x, y);
-            if (worker.owners.size() == batch && !render_pixels(context, worker, film)) return false;
+            if (worker.owners.size() == batch && !render_pixels(context, worker, film)) return;
         }
     }
-    return worker.owners.empty() || render_pixels(context, worker, film);
+    if (!worker.owners.empty()) render_pixels(context, worker, film);
 }
 
 }  // namespace
@@ -58,9 +60,7 @@ void render_tiles(RenderContext& context, int side, Film& film) {
     context.run(tiles.count(), [&](Worker& worker, std::int64_t position) {
         if (context.cancelled()) return;
         const Window tile = tiles.tile(spread_first(position, tiles.count()));
-        if (!render_tile(context, worker, tile, film)) return;
-        const std::int64_t pixels = std::int64_t{1} * tile.width() * tile.height();
-        context.progress.add(pixels, pixels * context.estimator.sample_count());
+        render_tile(context, worker, tile, film);
     });
 }
 

@@ -14,6 +14,9 @@ namespace {
 // Rays traced at once: enough to keep packets full, few enough for their data to stay in the second-level cache.
 constexpr std::size_t kChunk = 1024;
 
+// Points far along a ray are rounded by 2^-52 of their size at most a few times: a shadow ray is lifted by more.
+constexpr double kLift = 0x1p-48;
+
 void add(Counters& to, const trace::TraceCounters& from) {
     to.noise_evaluations += from.noise_evaluations;
     to.executed_lanes += from.executed_lanes;
@@ -164,7 +167,8 @@ void SurfaceImage::shadow(Chunk& chunk, Counters& counters) const {
         if (glm::dot(lit.normal, lit.sun) <= 0.0 || hit.on_bound) continue;
         trace::Ray ray = chunk.rays[lit.sample];
         ray.delta0 += ray.delta_slope * hit.s;
-        ray.origin += hit.s_outside * ray.direction;
+        const double size = glm::length(ray.origin) + hit.s;
+        ray.origin += hit.s_outside * ray.direction + kLift * size * lit.normal;
         ray.direction = lit.sun;
         chunk.shadow_rays.push_back(ray);
         chunk.shadow_owner.push_back(i);

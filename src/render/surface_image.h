@@ -21,6 +21,8 @@ class SurfaceImage final : public ImageFunction {
   public:
     // scene.image is `surface`, and the scene is valid.
     SurfaceImage(const scene::Scene& scene, Tracer tracer);
+    SurfaceImage(const SurfaceImage&) = delete;  // fast_ refers to field_
+    SurfaceImage& operator=(const SurfaceImage&) = delete;
 
     void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const override;
 

@@ -153,7 +153,7 @@ Section sky_section(Sky& sky, bool matters) {
     return section("sky", "what rays that miss see", matters,
                    {colour("zenith", sky.zenith, kLight, "colour straight up"),
                     colour("horizon", sky.horizon, kLight, "colour at the horizon, and of the haze"),
-                    number("haze_distance", sky.haze_distance, {0.0, 1e12}, "world units",
+                    number("haze_distance", sky.haze_distance, {0.0, 1e12}, "surface units",
                            "distance over which 1 - 1/e of the light becomes horizon; 0: no haze")});
 }
 

@@ -71,7 +71,7 @@ struct Sun {
 struct Sky {
     glm::dvec3 zenith{0.13, 0.28, 0.62};
     glm::dvec3 horizon{0.62, 0.74, 0.88};
-    double haze_distance = 0.0;  // world units over which 1 - 1/e of the light becomes horizon; 0: no haze
+    double haze_distance = 0.0;  // surface units over which 1 - 1/e of the light becomes horizon; 0: no haze
 };
 
 struct Material {
@@ -85,8 +85,7 @@ struct Material {
 };
 
 struct Zoneplate {
-    double rings =
-        0.0;  // periods from the centre to the frame's nearer edge; 0: so many that the last is 2 pixels wide
+    double rings = 0.0;  // periods from the centre to the nearer edge; 0: the last is 2 px wide
 };
 
 struct Checker {

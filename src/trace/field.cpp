@@ -36,7 +36,9 @@ Interval clip_below(double height, double top, double slope, double limit) {
         if (slope >= 0.0) return {};
         return {std::min((padded - height) / slope, limit), limit};
     }
-    return {0.0, slope > 0.0 ? std::min(limit, (padded - height) / slope) : limit};
+    // A ray that leaves a smooth plane from the plane itself still has its first point.
+    constexpr double kLeast = std::numeric_limits<double>::min();
+    return {0.0, slope > 0.0 ? std::min(limit, std::max((padded - height) / slope, kLeast)) : limit};
 }
 
 Interval clip_ball(const glm::dvec3& origin, const glm::dvec3& direction, double radius, double limit) {

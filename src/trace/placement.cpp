@@ -7,10 +7,10 @@ namespace strata::trace {
 namespace {
 
 // Rodrigues' formula; exact for multiples of 90 degrees about an axis of the frame.
-glm::dmat3 rotation_about(const glm::dvec3& unit_axis, double radians) {
-    double sine = std::sin(radians), cosine = std::cos(radians);
-    const double quarter = radians / (0.5 * 3.14159265358979323846);
-    if (quarter == std::round(quarter)) {
+glm::dmat3 rotation_about(const glm::dvec3& unit_axis, double degrees) {
+    const double turn = std::remainder(degrees, 360.0);
+    double sine = std::sin(glm::radians(turn)), cosine = std::cos(glm::radians(turn));
+    if (std::remainder(turn, 90.0) == 0.0) {
         sine = std::round(sine);
         cosine = std::round(cosine);
     }
@@ -20,9 +20,8 @@ glm::dmat3 rotation_about(const glm::dvec3& unit_axis, double radians) {
 }
 
 glm::dmat3 euler_rotation(const glm::dvec3& degrees) {
-    const glm::dvec3 angle = glm::radians(degrees);
-    return rotation_about({0.0, 0.0, 1.0}, angle.z) * rotation_about({0.0, 1.0, 0.0}, angle.y) *
-           rotation_about({1.0, 0.0, 0.0}, angle.x);
+    return rotation_about({0.0, 0.0, 1.0}, degrees.z) * rotation_about({0.0, 1.0, 0.0}, degrees.y) *
+           rotation_about({1.0, 0.0, 0.0}, degrees.x);
 }
 
 }  // namespace
@@ -31,7 +30,7 @@ Placement::Placement(const scene::Surface& surface)
     : origin_(surface.origin),
       rotation_(euler_rotation(surface.rotation_deg)),
       spin_axis_(glm::normalize(surface.spin_axis)),
-      spin_rate_(glm::radians(surface.spin_deg_per_s)),
+      spin_rate_(surface.spin_deg_per_s),
       scale_(surface.scale) {}
 
 glm::dmat3 Placement::orientation(double t) const {

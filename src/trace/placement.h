@@ -35,7 +35,7 @@ class Placement {
     glm::dvec3 origin_;
     glm::dmat3 rotation_;
     glm::dvec3 spin_axis_;
-    double spin_rate_;  // radians a second
+    double spin_rate_;  // degrees a second
     double scale_;
 };
 

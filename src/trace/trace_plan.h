@@ -13,17 +13,18 @@ namespace strata::trace {
 // e = 2^-24, without fused multiply-add (with it all are smaller):
 //   fade: 6t - 15 lies in (-16, -8], one rounding of a product and one of a sum: 8 + 8 e at most; times t and plus 10
 //   adds 8 + 8 e; times t^3 at most 2 + 2 e relative: |error| <= 32 e + 4 e = 36 e.
-//   value: each fade enters linearly with a factor |dn/du| <= 3 (the difference of two faces, |ramp| <= 2 and <= 1 on
-//   them at most), on three axes: 324 e; corner ramps (six roundings of at most 2): 12 e; seven interpolations (three
-//   roundings of at most 3 on each path of three): 27 e; the fraction itself, rounded from double: 3.76 * 1 e.
-//   Sum 367 e < 2^-15.4.
+//   value: each fade enters linearly, with the difference of two faces as factor: interpolated along the other axes the
+//   ramps are at most t + 1/2 on one and 1 - t + 1/2 on the other, so 3 is ample; on three axes: 324 e; corner ramps
+//   (six roundings of at most 2): 12 e; seven interpolations (three roundings of at most 3 on each path of three): 27
+//   e; the fraction itself, rounded from double: 3.76 e. Sum 367 e < 2^-15.
 inline constexpr double kNoiseFloatError = 0x1p-15;
 
 // The slope along a unit direction: per axis |fade'| <= 1.875 with an error of 12 e times 3; fade' times the error of
 // the face difference (two fades, |d2n/dudv| <= 6: 432 e, plus 40 e of rounding): 885 e; the interpolated gradient
 // component (three fades, differences <= 2: 216 e, plus 20 e): 1160 e an axis with the 36 e before; times |d|_1 <=
-// sqrt 3: 2009 e; the fraction's error through the second derivative: 26 e. Sum 2035 e < 2^-13.
-inline constexpr double kSlopeFloatError = 0x1p-13;
+// sqrt 3: 2009 e; the fraction's error through the second derivative: 26 e; frequency and direction as floats: 70 e.
+// Sum 2105 e < 2^-12.
+inline constexpr double kSlopeFloatError = 0x1p-12;
 
 // Covers up to 16 roundings of 2^-24 in a bound's coefficient or a root.
 inline constexpr double kRoundUp = 1.0 + 0x1p-20;

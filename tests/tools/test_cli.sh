@@ -1,0 +1,290 @@
+#!/usr/bin/env bash
+# What the strata program promises on its command line, shown with tiny pictures: test_cli.sh PROGRAM. Starting the
+# program takes longer than what it does here, so groups of checks run at once, each in a folder of its own.
+set -u
+
+strata=$(readlink -f -- "${1:?usage: test_cli.sh PROGRAM}")
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf -- "$scratch"' EXIT
+results=$scratch/results
+
+expect() { # sentence actual expected
+    if [[ $2 == "$3" ]]; then
+        echo passed >>"$results"
+    else
+        printf 'FAILED: %s\n  expected: %s\n  got:      %s\n' "$1" "$3" "${2:0:400}" | tee -a "$results"
+    fi
+}
+
+expect_match() { # sentence actual pattern
+    # shellcheck disable=SC2053 # a pattern is meant
+    if [[ $2 == $3 ]]; then expect "$1" yes yes; else expect "$1" "$2" "$3"; fi
+}
+
+expect_same_file() { # sentence file file
+    if cmp -s -- "$2" "$3"; then expect "$1" same same; else expect "$1" "$(cmp -- "$2" "$3" 2>&1)" same; fi
+}
+
+run() { # arguments...: sets output (of both streams) and status
+    output=$("$strata" "$@" 2>&1 </dev/null)
+    status=$?
+}
+
+# Refused before anything is rendered: the exit code, words of the message, and nothing written.
+refuses() { # sentence status pattern arguments...
+    local sentence=$1 expected=$2 pattern=$3
+    shift 3
+    run "$@"
+    expect_match "$sentence" "$status: $output" "$expected: $pattern"
+}
+
+tiny=(--size 16x9 -N 2 --quiet)
+number='-?[0-9]+(\.[0-9]+)?(e[+-][0-9]+)?'
+vector="\[$number,$number,$number\]"
+
+# Lines of $1 that are not wholly $2.
+strays() { grep -Evxc -- "$2" <<<"$1"; }
+
+check_unknown_words() {
+    refuses 'a misspelt command gets the nearest name' 2 "*rendr*did you mean 'render'*" rendr
+    refuses 'a misspelt command of probe gets the nearest name' 2 "*feild*did you mean 'field'*" probe feild
+    refuses 'a misspelt option gets the nearest name' 2 "*--estimatr*did you mean '--estimator'*" render --estimatr sobol
+    refuses 'a misspelt option with a value attached gets the nearest name' 2 "*did you mean '--size'*" render --siz=2x2
+    refuses 'an unknown letter gets the allowed options' 2 '*-Q: unknown option*--quiet*' render -Q
+    refuses 'no command names the commands' 2 '*render, scenes, probe*'
+    refuses 'a second scene is one argument too many' 2 '*planet: one argument too many*' render terrain planet
+    refuses 'a misspelt scene gets the nearest name' 2 "*did you mean 'hyperterrain'*" render hyperterain
+    refuses 'a misspelt scene to print gets the nearest name' 2 "*did you mean 'terrain'*" scenes terain
+    refuses 'an option without its value says so' 2 '*--order*M missing*' render -m
+}
+
+check_wrong_values() {
+    refuses 'an N out of range tells the range' 2 '*-N 65: sampling.N: out of range*1 to 64*' render -N 65
+    refuses 'an N without a meaning is refused' 2 '*-N 010: sampling.N: not a value*' render -N 010
+    refuses 'an m out of range tells the range' 2 '*1 to 100*' render -m 0
+    refuses 'an unknown estimator gets the nearest name' 2 "*did you mean 'stratified'*" render --estimator stratifed
+    refuses 'a size needs two numbers' 2 '*WIDTHxHEIGHT*' render --size 16
+    refuses 'a size too large for memory is refused with the way out' 2 '*GB of memory*--crop*' render --size 65536x65536
+    refuses 'an inverted crop is refused' 2 '*--crop 5,5,2,2:*x0 < x1 <= 16*' render --size 16x9 --crop 5,5,2,2
+    refuses 'a crop beyond the frame is refused' 2 '*--crop 0,0,17,9:*' render --size 16x9 --crop 0,0,17,9
+    refuses 'a crop with a negative corner is refused' 2 '*--crop -1,0,4,4:*' render --crop -1,0,4,4
+    refuses 'a crop of junk is refused' 2 '*--crop 1,2,3,x:*' render --crop 1,2,3,x
+    refuses 'negative threads are refused' 2 '*--threads -1: allowed*' render --threads -1
+    refuses 'a tile of 0 is refused' 2 '*--tile 0: allowed*' render --tile 0
+    refuses 'an unknown SIMD target gets those that are here' 2 '*--simd mmx: allowed*scalar*' render --simd mmx
+    refuses 'an unknown tracer gets the known ones' 2 '*fast, reference*' render --tracer exact
+    refuses 'an unknown EXR format gets the known ones' 2 '*half, float*' render --format double
+    refuses '--set names the nearest key' 2 "*did you mean 'camera.fov_deg'*" render --set camera.fov=3
+    refuses '--set without = says what is allowed' 2 "*no '='*" render --set camera
+    refuses '--set refuses NaN' 2 '*camera.fov_deg: not a finite number (nan)*' render --set camera.fov_deg=nan
+    refuses 'octaves beyond double precision are refused' 2 '*octave*2^52*' render --set surface.octaves=32 \
+        --set surface.lacunarity=10
+}
+
+check_scene_files() {
+    : >empty.toml
+    head -c 300 "$strata" >junk.toml
+    printf '[camera]\nfov_deg = nan\n' >nan.toml
+    printf '[camera]\n\nfov_dg = 30\n' >unknown.toml
+    printf 'P6 1 1 255\n' >foreign.ppm
+    mkdir folder.toml planet
+    refuses 'a missing scene file is named' 2 '*missing.toml: no such file*' render missing.toml
+    refuses 'an empty scene file is refused with a way out' 2 '*empty.toml:1:1: empty*' render empty.toml
+    refuses 'binary junk is refused' 2 '*junk.toml:1:*not text*' render junk.toml
+    refuses 'NaN in a scene file is refused with its place' 2 '*nan.toml:2:*camera.fov_deg*nan*0.01 to 179*' render nan.toml
+    refuses 'an unknown key is refused with its place and the nearest' 2 \
+        "*unknown.toml:3:1: camera.fov_dg*did you mean 'camera.fov_deg'*" render unknown.toml
+    refuses 'a folder is no scene' 2 '*folder.toml: a folder*' render folder.toml
+    run render planet "${tiny[@]}"
+    expect 'a folder does not hide a built-in scene of its name' "$status: $output" '0: '
+    printf '\x89PNG\r\n\x1a\nnonsense' >damaged.png
+    refuses 'a damaged picture is refused as a scene' 2 '*damaged.png*' render damaged.png
+    # One black pixel, as another program writes it.
+    printf '%b' '\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\001\0\0\0\001\010\002\0\0\0\x90wS\xde\0\0\0\014IDAT\x08\xd7c```\0\0' \
+        '\0\004\0\001\x27\x34\x27\x0a\0\0\0\0IEND\xaeB`\x82' >foreign.png
+    refuses 'a picture of another program is refused as a scene' 2 '*foreign.png*strata did not write it*' render foreign.png
+}
+
+check_outputs() {
+    refuses 'an unknown extension is refused with the known ones' 2 '*.bmp*.exr, .png*' render -o a.bmp
+    refuses 'a missing folder is named' 1 '*"nowhere" does not exist*' render -o nowhere/a.exr
+    mkdir folder.exr
+    refuses 'a folder is no output' 1 '*folder.exr*folder*' render -o folder.exr
+    refuses 'a statistics file that cannot be written is found out first' 1 '*nowhere*' render --stats nowhere/s.json
+    refuses 'statistics do not replace a picture' 2 '*--stats a.png: allowed: a file of its own*' render -o a.png --stats a.png
+    expect 'nothing is written when something is refused' "$(echo *)" folder.exr
+
+    "$strata" scenes terrain >'my scene v1.2.toml'
+    run render 'my scene v1.2.toml' --size 16x9 -N 2
+    expect 'names with dots and blanks make output names' "$(ls -- my*)" \
+        'my scene v1.2.exr'$'\n''my scene v1.2.png'$'\n''my scene v1.2.toml'
+    expect_match 'the summary tells what was written, time, rays and memory' "$status: $output" \
+        '0: *wrote *.exr*wrote *.png*time *rays *memory *'
+    run render "${tiny[@]}" --crop 3,2,9,7 -o twice.png -o ./twice.png -o t.tif -o t.jpg -o t.exr --stats s.json
+    expect '--quiet prints nothing' "$status: $output" '0: '
+    expect 'each output is there' "$(echo t*)" 't.exr t.jpg t.tif twice.png'
+    local missing='' key
+    for key in rays shadow_rays hits unresolved_rays noise_evaluations executed_lanes steps seconds cpu_seconds threads \
+        simd_target peak_memory_bytes scene version; do
+        grep -q "^  \"$key\": ..*" s.json || missing+=" $key"
+    done
+    expect 'the statistics hold every key' "$missing" ''
+    expect 'the statistics count the rays of the crop' "$(grep '"rays"' s.json)" '  "rays": 120,'
+}
+
+check_rendering_again() {
+    "$strata" scenes hyperterrain >hyperterrain.toml
+    "$strata" render hyperterrain "${tiny[@]}" -o a.exr -o a.png
+    "$strata" render hyperterrain.toml "${tiny[@]}" --threads 1 --tile 5 -o b.exr -o b.png
+    expect_same_file 'a printed scene gives the same EXR, whatever threads and tiles' a.exr b.exr
+    expect_same_file 'a printed scene gives the same PNG, whatever threads and tiles' a.png b.png
+    "$strata" render hyperterrain --quiet --size 24x13 --crop 3,2,20,11 --format float --simd scalar --tracer reference \
+        -N 3 -m 3 --estimator shared --seed 7 --time-order 2 --frame 3 --exposure 1.5 --set camera.fov_deg=35 \
+        -o c.exr -o c.png -o c.tif
+    "$strata" render c.exr --quiet -o d.exr -o d.png -o d.tif
+    expect_same_file 'an EXR rendered again from its metadata is the same EXR' c.exr d.exr
+    expect_same_file 'an EXR rendered again from its metadata is the same PNG' c.png d.png
+    expect_same_file 'an EXR rendered again from its metadata is the same TIFF' c.tif d.tif
+    "$strata" render c.png --quiet -o e.exr
+    expect_same_file 'a PNG rendered again from its metadata is the same EXR' c.exr e.exr
+    "$strata" render d.tif --quiet -o f.png
+    expect_same_file 'a TIFF rendered again from its metadata is the same PNG' c.png f.png
+    "$strata" render a.exr --quiet --crop 0,0,16,9 -o g.exr
+    expect_same_file 'a crop that is the whole frame is no crop' a.exr g.exr
+    refuses 'a recorded crop that a new frame does not hold says where it comes from' 2 '*c.exr: its --crop 3,2,20,11*' \
+        render c.exr --size 8x8
+}
+
+check_probes() {
+    local lines positions
+    lines=$(printf '0\n1\n0.1\n1e-300\n\n0.5' | "$strata" probe bspline -m 20)
+    local form="\{\"y\":$number,\"x\":$number,\"cdf\":$number,\"pdf\":$number,\"iterations\":[0-9]+,\"bulk_x\":$number,"
+    form+="\"paper_x\":($number|null),\"paper_iterations\":([0-9]+|null)\}"
+    expect 'probe bspline answers each line in its form' "$(wc -l <<<"$lines") $(strays "$lines" "$form")" '5 0'
+    expect_match 'numbers have 17 digits' "$lines" '*"y":0.10000000000000001,*'
+    lines=$(printf '0\n1\n1e-300\n' | "$strata" probe bspline -m 100)
+    expect 'the paper method ends at m = 20' "$(grep -c '"paper_x":null,"paper_iterations":null' <<<"$lines")" 3
+    expect 'probe bspline has no NaN at the ends' "$(strays "$lines" "$form")" 0
+    lines=$(echo 1e-60 | "$strata" probe bspline -m 32 |
+        sed 's/.*"x":\([^,]*\),.*"bulk_x":\([^,]*\),.*/\1 \2/' | awk '{ print ($1 > 0.1 && $1 - $2 < 1e-6 && $2 - $1 < 1e-6) }')
+    expect 'bulk_x keeps its accuracy below the range of float' "$lines" 1
+    lines=$(printf '0.5\n1.5\n' | "$strata" probe bspline 2>&1)
+    expect_match 'a y outside [0,1] is named with its line' "$lines" "*stdin:2: '1.5', allowed: one y in \[0,1\]"
+
+    coproc "$strata" probe bspline
+    local answer='' input=${COPROC[1]}
+    echo 0.5 >&"$input"
+    read -r -t 20 answer <&"${COPROC[0]}"
+    exec {input}>&-
+    wait "$COPROC_PID"
+    expect_match 'a probe answers each line before the next is asked' "$answer" '*"y":0.5,"x":2,*'
+
+    positions=$'0 0 0\n1.5 -2 1e3\n-7 0.25 3 0.5'
+    lines=$("$strata" probe field planet <<<"$positions")
+    form="\{\"f\":$number,\"gradient\":$vector,\"octaves\":\[$number(,$number)*\]\}"
+    expect 'probe field answers each line in its form' "$(wc -l <<<"$lines") $(strays "$lines" "$form")" '3 0'
+    lines=$("$strata" probe field <<<$'1 2 3\n1 2' 2>&1 >/dev/null)
+    expect_match 'a line with too few numbers is named' "$lines" "*stdin:2: '1 2', allowed: x y z*"
+    lines=$("$strata" probe field <<<'1 nan 3' 2>&1)
+    expect_match 'NaN on stdin is refused' "$lines" "*stdin:1: '1 nan 3'*"
+    lines=$("$strata" probe field <<<'1e300 0 0' 2>&1)
+    expect_match 'a position beyond double precision is refused' "$lines" '*stdin:1:*surface.origin*'
+
+    lines=$("$strata" probe ray <<<$'0 5 0 0 -1 0\n0 5 0 0 1 0\n0 5 0 1e-320 -3e200 0')
+    form="\{\"origin\":$vector,\"direction\":$vector,\"hit\":(true,\"t\":$number,\"position\":$vector,\"normal\":$vector"
+    form+="|false,\"t\":null,\"position\":null,\"normal\":null),\"steps\":[0-9]+,\"noise_evaluations\":[0-9]+\}"
+    expect 'probe ray answers each line in its form' "$(wc -l <<<"$lines") $(strays "$lines" "$form")" '3 0'
+    expect 'a hit, a miss, a hit by a direction of any length' \
+        "$(grep -o '"hit":[a-z]*' <<<"$lines" | tr '\n' ' ')" '"hit":true "hit":false "hit":true '
+    lines=$("$strata" probe ray <<<'0 0 0 0 0 0' 2>&1)
+    expect_match 'a ray without a direction is refused' "$lines" "*stdin:1: '0 0 0 0 0 0'*direction*"
+    refuses 'a sample beyond the last is refused' 2 '*--sample 16: allowed*0 to 15*' probe ray --pixel 0,0 --sample 16
+    refuses 'a pixel outside the frame is refused' 2 '*--pixel 16,0: allowed*x < 16*' probe ray --size 16x9 --pixel 16,0
+}
+
+check_samples() {
+    local estimator lines form="\{\"u\":$number,\"v\":$number,\"time\":$number,\"weight\":$number\}"
+    for estimator in none super uniform jittered stratified random sobol shared shared-sobol; do
+        lines=$("$strata" probe samples wheel --size 16x9 --pixel 15,0 -N 3 -m 3 --estimator "$estimator")
+        expect "samples of $estimator are in their form, their weights sum to 1" \
+            "$(strays "$lines" "$form") $(awk -F '[:}]' '{ sum += $5 } END { print (sum - 1 < 1e-12 && 1 - sum < 1e-12) }' \
+                <<<"$lines")" '0 1'
+    done
+    # A pixel on the horizon.
+    local i hits=0 rendered
+    for i in 0 1 2 3; do
+        "$strata" probe ray hyperterrain --size 16x9 -N 2 --pixel 5,2 --sample "$i" | grep -q '"hit":true' && hits=$((hits + 1))
+    done
+    "$strata" render hyperterrain --size 16x9 -N 2 --crop 5,2,6,3 --quiet -o pixel.png --stats s.json
+    rendered=$(sed -n 's/ *"hits": \([0-9]*\),/\1/p' s.json)
+    expect 'probe ray traces the samples that render uses' "$hits" "$rendered"
+}
+
+start_render() { # output arguments...: sets pid once the program listens to signals
+    local name=$1 i caught
+    shift
+    "$strata" render hyperterrain --size 320x180 -N 64 --quiet -o "$name" "$@" &
+    pid=$!
+    for ((i = 0; i < 1000; ++i)); do
+        caught=$(sed -n 's/^SigCgt:.*\(.\)$/\1/p' "/proc/$pid/status" 2>/dev/null)
+        [[ $caught == [2367abefABEF] ]] && return
+        sleep 0.01
+    done
+}
+
+check_signals() {
+    echo earlier >a.exr
+    start_render a.exr
+    sleep 1
+    kill -INT "$pid"
+    wait "$pid"
+    expect 'SIGINT ends a render with 130' "$?" 130
+    expect 'an earlier picture stays' "$(cat a.exr)" earlier
+    run render a.partial.exr --quiet --size 16x9 -N 1 -o again.exr
+    expect 'the interrupted picture can be read' "$status: $output" '0: '
+
+    start_render b.png --threads 1 --tile 1024
+    kill -TERM "$pid"
+    wait "$pid"
+    expect 'SIGTERM before the first tile ends a render with 143' "$?" 143
+    run render b.partial.png --quiet --size 16x9 -N 1
+    expect 'the picture interrupted before its first tile can be read; whole again, it loses the .partial' \
+        "$status: $output $(echo b*)" '0:  b.exr b.partial.png b.png'
+}
+
+check_failing_writes() {
+    echo earlier >a.exr
+    output=$(ulimit -f 12 && "$strata" render --size 64x36 -N 1 --format float --quiet -o a.exr -o a.png 2>&1)
+    expect_match 'a full disk is told' "$?: $output" '1: strata: cannot write "a.exr": File too large'
+    expect 'a full disk leaves the earlier file, and no other' "$(cat a.exr) $(ls -A)" 'earlier a.exr'$'\n''a.png'
+    run render a.png --quiet --size 16x9 -o b.png
+    expect 'the other output is written nevertheless' "$status: $output" '0: '
+    if [[ $EUID -ne 0 ]]; then
+        chmod a-w a.png
+        refuses 'a read-only file is refused' 1 '*a.png*Permission denied*' render -o a.png
+    fi
+    output=$("$strata" scenes 2>&1 >/dev/full)
+    expect_match 'output on a full disk is an error' "$?: $output" '1: *standard output: No space left*'
+    "$strata" scenes >&- 2>/dev/null
+    expect 'closed output is an error' "$?" 1
+    output=$(set -o pipefail; { "$strata" scenes terrain; "$strata" scenes terrain; } 2>&1 | head -1)
+    expect_match 'a reader that goes early is no error' "$?: $output" '0: *'
+    "$strata" render --size 16x9 -N 1 -o closed.png >&- 2>/dev/null
+    "$strata" render --size 16x9 -N 1 -o open.png --quiet
+    expect_same_file 'pictures do not depend on standard output' closed.png open.png
+    run --version
+    expect_match 'there is a version' "$status: $output" '0: strata [0-9]*.[0-9]*'
+    run probe ray --help
+    expect_match 'there is help for each command' "$status: $output" '0: *--sample*'
+}
+
+groups=(check_unknown_words check_wrong_values check_scene_files check_outputs check_rendering_again check_probes
+    check_samples check_signals check_failing_writes)
+for group in "${groups[@]}"; do
+    (mkdir "$scratch/$group" && cd "$scratch/$group" && "$group") &
+    while (($(jobs -rp | wc -l) >= $(nproc))); do wait -n; done
+done
+wait
+passed=$(grep -c '^passed' "$results") failed=$(grep -c '^FAILED' "$results")
+echo "$passed passed, $failed failed"
+((failed == 0 && passed > 0))

@@ -1,0 +1,272 @@
+// The field against an independent implementation, and the bounds and intervals that tracing relies on.
+#include "src/trace/field.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "tests/trace/ray_families.h"
+
+using namespace strata;
+using namespace strata::trace_test;
+using scene::SurfaceKind;
+
+namespace {
+
+constexpr SurfaceKind kKinds[] = {SurfaceKind::terrain, SurfaceKind::hyperterrain, SurfaceKind::planet,
+                                  SurfaceKind::isosurface};
+
+oracle::Vec vec(const glm::dvec3& x) { return {x.x, x.y, x.z}; }
+
+glm::dvec3 anywhere(Random& random, double reach) {
+    return reach * glm::dvec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+}
+
+// Rounding of f at x in double: of the base and of the sum after each octave, of each octave's position in its lattice,
+// of each octave's value.
+double rounding(const trace::Field& field, const glm::dvec3& x) {
+    const double sums = 4.0 + static_cast<double>(field.octaves().size());
+    double sum = sums * (glm::length(x) + field.surface().radius + field.amplitude());
+    for (const noise::Octave& octave : field.octaves()) {
+        sum += octave.amplitude * (16.0 + 16.0 * (octave.frequency * glm::length(x) + 1.0));
+    }
+    return sum * 0x1p-53;
+}
+
+// Climbs `score` from x by random steps.
+glm::dvec3 climb(Random& random, glm::dvec3 x, double step, const std::function<double(const glm::dvec3&)>& score) {
+    double best = score(x);
+    for (int i = 0; i < 60; ++i, step *= 0.95) {
+        const glm::dvec3 y = x + step * unit_vector(random);
+        const double there = score(y);
+        if (there <= best) continue;
+        best = there;
+        x = y;
+    }
+    return x;
+}
+
+// How far x lies outside the isosurface's bound; negative inside.
+double outside_bound(const scene::Surface& surface, const glm::dvec3& x) {
+    if (surface.bound == scene::BoundKind::ball) return glm::length(x) - surface.bound_size.x;
+    const glm::dvec3 beyond = glm::abs(x) - surface.bound_size;
+    return std::max({beyond.x, beyond.y, beyond.z});
+}
+
+}  // namespace
+
+TEST_CASE("value, base and every octave agree with the oracle") {
+    Random random(11);
+    double worst = 0.0;
+    for (int trial = 0; trial < 400; ++trial) {
+        scene::Surface surface = random_surface(random);
+        surface.kind = kKinds[trial % 4];
+        const trace::Field field(surface);
+        const oracle::FieldOracle expected(shape_of(surface));
+        REQUIRE(field.octaves().size() == expected.octaves().size());
+        for (int i = 0; i < 10; ++i) {
+            const glm::dvec3 x = anywhere(random, log_uniform(random, 1e-3, 1e5));
+            const double bound = rounding(field, x);
+            double error = std::abs(field.value(x) - static_cast<double>(expected.value<long double>(vec(x))));
+            error = std::max(error, std::abs(field.base(x) - static_cast<double>(expected.base<long double>(vec(x)))));
+            for (std::size_t k = 0; k < field.octaves().size(); ++k) {
+                const auto octave = static_cast<double>(expected.octave<long double>(k, vec(x)));
+                error = std::max(error, std::abs(field.octave(k, x) - octave));
+            }
+            worst = std::max(worst, error / bound);
+        }
+    }
+    MESSAGE("largest difference " << worst << " of the rounding bound");
+    CHECK(worst <= 1.0);
+    CHECK(worst > 0.0);
+}
+
+TEST_CASE("octaves that cannot change a double are left out, and the sum stays the same") {
+    Random random(12);
+    scene::Surface surface = surface_of(SurfaceKind::hyperterrain);
+    surface.octaves = 32;
+    surface.lacunarity = 1.2;
+    for (const double gain : {0.0, 1e-3, 0.1, 0.2}) {
+        surface.gain = gain;
+        const trace::Field field(surface);
+        const oracle::FieldOracle expected(shape_of(surface));
+        CHECK(field.octaves().size() < 32);
+        CHECK(!field.octaves().empty());
+        for (int i = 0; i < 200; ++i) {
+            const glm::dvec3 x = anywhere(random, 20.0);
+            CHECK(std::abs(field.value(x) - expected.value(vec(x))) <= rounding(field, x));
+        }
+    }
+    surface.amplitude = 0.0;
+    const trace::Field flat(surface);
+    CHECK(flat.octaves().empty());
+    CHECK(flat.amplitude() == 0.0);
+    CHECK(flat.lipschitz() == 1.0);
+    CHECK(flat.value({3.0, -2.5, 7.0}) == -2.5);
+}
+
+TEST_CASE("the gradient agrees with central differences of the oracle in extended precision") {
+    Random random(13);
+    double worst = 0.0;
+    for (int trial = 0; trial < 200; ++trial) {
+        scene::Surface surface = random_surface(random);
+        surface.kind = kKinds[trial % 4];
+        const trace::Field field(surface);
+        const oracle::FieldOracle expected(shape_of(surface));
+        const glm::dvec3 x = anywhere(random, 6.0);
+        glm::dvec3 gradient = surface.kind == SurfaceKind::planet       ? x / glm::length(x)
+                              : surface.kind == SurfaceKind::isosurface ? glm::dvec3(0.0)
+                                                                        : glm::dvec3(0.0, 1.0, 0.0);
+        double slopes = 1.0;
+        for (std::size_t k = 0; k < expected.octaves().size(); ++k) {
+            const oracle::OracleOctave& octave = expected.octaves()[k];
+            slopes += octave.amplitude * octave.frequency;
+            for (int a = 0; a < 3; ++a) {
+                glm::dvec3 before = x, after = x;
+                before[a] -= 0x1p-14 / octave.frequency;
+                after[a] += 0x1p-14 / octave.frequency;
+                const long double rise =
+                    expected.octave<long double>(k, vec(after)) - expected.octave<long double>(k, vec(before));
+                gradient[a] -= static_cast<double>(rise / (static_cast<long double>(after[a]) - before[a]));
+            }
+        }
+        worst = std::max(worst, glm::length(field.gradient(x) - gradient) / slopes);
+    }
+    // The difference's own error: third derivative * h^2 / 6 < 1e-7, and rounding of the ends at the finest octave.
+    MESSAGE("largest difference " << worst << " of the sum of the octaves' slopes (bound 2e-6)");
+    CHECK(worst < 2e-6);
+}
+
+TEST_CASE("|f(p) - f(q)| <= L |p - q|, for random pairs and for pairs along the steepest slopes found") {
+    Random random(14);
+    double worst = 0.0;
+    for (int trial = 0; trial < 240; ++trial) {
+        scene::Surface surface = random_surface(random);
+        surface.kind = kKinds[trial % 4];
+        if (trial % 3 == 0) surface.octaves = 1;
+        const trace::Field field(surface);
+        const double cell = 1.0 / field.octaves().back().frequency;
+        const auto check_pair = [&](const glm::dvec3& p, const glm::dvec3& q) {
+            const double rise = std::abs(field.value(p) - field.value(q));
+            const double slack = 2.0 * rounding(field, p) + 2.0 * rounding(field, q);
+            REQUIRE(rise <= field.lipschitz() * glm::distance(p, q) + slack);
+            if (rise > 1e6 * slack) worst = std::max(worst, rise / (field.lipschitz() * glm::distance(p, q)));
+        };
+        for (int i = 0; i < 20; ++i) {
+            const glm::dvec3 p = anywhere(random, 8.0);
+            check_pair(p, p + log_uniform(random, 1e-6, 10.0) * unit_vector(random));
+        }
+        const glm::dvec3 steep = climb(random, anywhere(random, 8.0), 0.3 * cell,
+                                       [&](const glm::dvec3& x) { return glm::length(field.gradient(x)); });
+        const glm::dvec3 uphill = glm::normalize(field.gradient(steep));
+        for (const double h : {1e-3, 1e-2, 0.1}) check_pair(steep - h * cell * uphill, steep + h * cell * uphill);
+    }
+    MESSAGE("steepest pair " << worst << " of the bound");
+    CHECK(worst > 0.5);
+}
+
+TEST_CASE("the sum of octaves never exceeds amplitude(), at random points and at the highest found") {
+    Random random(15);
+    double worst = 0.0;
+    for (int trial = 0; trial < 240; ++trial) {
+        scene::Surface surface = random_surface(random);
+        surface.kind = kKinds[trial % 4];
+        if (trial % 3 == 0) surface.octaves = 1;
+        const trace::Field field(surface);
+        const auto size = [&](const glm::dvec3& x) { return std::abs(field.base(x) - field.value(x)); };
+        double highest = 0.0;
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 start = anywhere(random, 8.0);
+            highest = std::max(highest, size(climb(random, start, 0.4 / surface.frequency, size)));
+        }
+        REQUIRE(highest <= field.amplitude());
+        worst = std::max(worst, highest / field.amplitude());
+    }
+    MESSAGE("highest sum " << worst << " of the bound");
+    CHECK(worst > 0.7);
+}
+
+namespace {
+
+// Rays that are hard on clipping: axis-parallel, in a face's plane, tangent, from inside, from far away.
+trace::Ray clip_ray(Random& random, const trace::Field& field) {
+    const scene::Surface& surface = field.surface();
+    trace::Ray ray{.origin = anywhere(random, log_uniform(random, 1.0, 30.0)),
+                   .direction = unit_vector(random),
+                   .limit = log_uniform(random, 0.1, 100.0)};
+    const auto axis = static_cast<int>(random() % 3);
+    if (random() % 3 == 0) {
+        ray.direction = glm::dvec3(0.0);
+        ray.direction[axis] = random() % 2 == 0 ? 1.0 : -1.0;
+    }
+    switch (random() % 4) {
+        case 0:
+            ray.origin = anywhere(random, 0.5);
+            break;
+        case 1:  // grazing the ball, the shell or a face
+            ray.origin =
+                (surface.kind == SurfaceKind::planet ? surface.radius + field.amplitude() : surface.bound_size.x) *
+                glm::normalize(glm::cross(ray.direction, unit_vector(random)));
+            ray.origin -= uniform(random, 0.0, 20.0) * ray.direction;
+            break;
+        case 2:
+            ray.origin[axis] = surface.kind == SurfaceKind::isosurface ? surface.bound_size[axis] : field.amplitude();
+            if (random() % 2 == 0)
+                ray.direction = glm::normalize(ray.direction * glm::dvec3(axis != 0, axis != 1, axis != 2) + 1e-9);
+            break;
+        default:
+            break;
+    }
+    return ray;
+}
+
+}  // namespace
+
+TEST_CASE("outside of clip()'s interval a ray meets nothing, and the interval lies on the ray") {
+    Random random(16);
+    int empty = 0, shortened = 0, entered = 0;
+    for (int trial = 0; trial < 6000; ++trial) {
+        scene::Surface surface = surface_of(kKinds[trial % 4]);
+        surface.bound = random() % 2 == 0 ? scene::BoundKind::ball : scene::BoundKind::box;
+        surface.amplitude = random() % 4 == 0 ? 0.0 : log_uniform(random, 1e-3, 2.0);
+        const trace::Field field(surface);
+        const oracle::FieldOracle expected(shape_of(surface));
+        const trace::Ray ray = clip_ray(random, field);
+        const trace::Interval inside = field.clip(ray.origin, ray.direction, ray.limit);
+        const bool is_empty = !(inside.begin < inside.end);
+        empty += is_empty;
+        shortened += !is_empty && (inside.begin > 0.0 || inside.end < ray.limit);
+        if (!is_empty) {
+            REQUIRE(inside.begin >= 0.0);
+            REQUIRE(inside.end <= ray.limit);
+        }
+        const double size = glm::length(ray.origin) + ray.limit;
+        const auto is_clear = [&](double s) {
+            const glm::dvec3 x = ray.origin + s * ray.direction;
+            if (surface.kind == SurfaceKind::isosurface && outside_bound(surface, x) > -1e-14 * size) return true;
+            return expected.value(vec(x)) > 0.0;
+        };
+        CAPTURE(trial);
+        const double begin = is_empty ? ray.limit : inside.begin;
+        for (int i = 0; i < 12; ++i) {
+            if (begin > 0.0) REQUIRE(is_clear(begin * (i == 0 ? 1.0 - 1e-12 : uniform(random, 0.0, 1.0))) == true);
+            if (is_empty || inside.end >= ray.limit) continue;
+            const double share = i == 0 ? 1e-12 : uniform(random, 0.0, 1.0);
+            REQUIRE(is_clear(inside.end + share * (ray.limit - inside.end)) == true);
+        }
+        if (is_empty || !inside.enters_bound) continue;
+        ++entered;
+        REQUIRE(surface.kind == SurfaceKind::isosurface);
+        const glm::dvec3 at = ray.origin + inside.begin * ray.direction;
+        REQUIRE(std::abs(outside_bound(surface, at)) < 1e-7 * size);
+        const glm::dvec3 normal = field.bound_normal(at);
+        REQUIRE(glm::dot(normal, ray.direction) < 1e-6);
+        REQUIRE(outside_bound(surface, at + 1e-3 * normal) > 0.0);
+    }
+    MESSAGE(empty << " empty, " << shortened << " shortened, " << entered << " enter a bound, of 6000");
+    CHECK(empty > 500);
+    CHECK(shortened > 500);
+    CHECK(entered > 50);
+}

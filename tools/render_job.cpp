@@ -1,0 +1,170 @@
+#include "tools/render_job.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "noise/simd_target.h"
+#include "src/image/format.h"
+#include "src/image/image_error.h"
+#include "src/image/output_file.h"
+#include "src/image/read.h"
+#include "src/scene/enum_names.h"
+#include "src/scene/printer.h"
+#include "tools/errors.h"
+#include "tools/run_statistics.h"
+#include "tools/standard_output.h"
+
+namespace strata::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostThreads = 1024;  // each has buffers of its own
+constexpr int kLargestTile = 1024;  // progress and the prediction of the time come by the tile
+
+// An option given here, else what the picture that is rendered again recorded, else the default.
+std::string choose(const std::string& given, const std::optional<std::string>& recorded, const char* otherwise) {
+    return !given.empty() ? given : recorded.value_or(otherwise);
+}
+
+image::ExrFormat parse_format(const std::string& name) {
+    if (name == "half") return image::ExrFormat::half;
+    if (name == "float") return image::ExrFormat::floating;
+    throw UsageError(fmt::format("--format {}: allowed: half, float", name));
+}
+
+render::Window choose_window(const RenderRequest& request, const LoadedScene& loaded) {
+    const scene::Film& film = loaded.scene.film;
+    if (!request.crop.empty()) return parse_crop("--crop", request.crop, film);
+    if (loaded.crop) return parse_crop(fmt::format("{}: its --crop", loaded.source), *loaded.crop, film);
+    return {0, 0, film.width, film.height};
+}
+
+// Bits depend on the SIMD target: a picture is rendered again on its own, where that is here.
+void choose_simd_target(const RenderRequest& request, const LoadedScene& loaded) {
+    if (!request.simd.empty()) return use_simd_target(request.simd);
+    if (!loaded.simd_target || noise::pin_simd_target(*loaded.simd_target) || request.quiet) return;
+    print_error(
+        fmt::format("warning: {} was made with --simd {}, which this machine lacks; with {} it may differ by "
+                    "rounding",
+                    loaded.source, *loaded.simd_target, noise::simd_target()));
+}
+
+// At the most demanding moment, of writing: picture, a copy of it for the encoder, its codes, the encoded file.
+constexpr double kBytesAPixel = 12 + 12 + 12 + 12;
+
+void check_memory(const render::Window& window) {
+    const double needed = kBytesAPixel * window.width() * window.height();
+    const double present =
+        static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+    if (needed <= present) return;
+    throw UsageError(
+        fmt::format("{}x{} pixels need {:.1f} GB of memory, this machine has {:.1f} GB; allowed: a smaller "
+                    "--size, or the frame in parts by --crop",
+                    window.width(), window.height(), needed / 1e9, present / 1e9));
+}
+
+bool same_file(const fs::path& a, const fs::path& b) {
+    std::error_code error;
+    if (fs::equivalent(a, b, error)) return true;
+    const fs::path whole_a = fs::weakly_canonical(a, error);
+    return !error && whole_a == fs::weakly_canonical(b, error) && !error;
+}
+
+void check_output(const fs::path& path, const Job& job) {
+    try {
+        image::format_of(path);
+        image::check_size(path, job.window.width(), job.window.height());
+    } catch (const image::ImageError& error) {
+        throw UsageError(error.what());
+    }
+    if (same_file(path, job.loaded.source) && !image::is_picture(path)) {
+        throw UsageError(fmt::format("{}: this output is the scene file itself", path.string()));
+    }
+    image::check_writable(path);
+    image::check_writable(partial_path(path));
+}
+
+// Each file once, however often and by whatever name it was asked for.
+std::vector<fs::path> output_paths(const RenderRequest& request, const Job& job) {
+    const std::string& name = job.loaded.name;
+    std::vector<fs::path> asked(request.outputs.begin(), request.outputs.end());
+    if (asked.empty()) asked = {name + ".exr", name + ".png"};
+    std::vector<fs::path> paths;
+    for (const fs::path& path : asked) {
+        check_output(path, job);
+        if (std::ranges::none_of(paths, [&](const fs::path& other) { return same_file(path, other); })) {
+            paths.push_back(path);
+        }
+    }
+    return paths;
+}
+
+void check_statistics(const Job& job) {
+    if (job.statistics.empty()) return;
+    check_statistics_path(job.statistics);
+    const auto is_statistics = [&](const fs::path& path) { return same_file(path, job.statistics); };
+    if (is_statistics(job.loaded.source) || std::ranges::any_of(job.outputs, is_statistics)) {
+        throw UsageError(fmt::format("--stats {}: allowed: a file of its own", job.statistics.string()));
+    }
+}
+
+std::string filter_text(const scene::Sampling& sampling) {
+    if (sampling.estimator == scene::EstimatorKind::none) return "none";
+    if (sampling.estimator == scene::EstimatorKind::super) return "box";
+    return fmt::format("B-spline of order {}", sampling.m);
+}
+
+// How the picture is made: nothing here differs between equal renders.
+image::Metadata describe(const Job& job, const std::string& format) {
+    const scene::Sampling& sampling = job.loaded.scene.sampling;
+    const scene::Film& film = job.loaded.scene.film;
+    const render::Window& w = job.window;
+    image::Metadata metadata;
+    metadata.set("strata:version", STRATA_VERSION);
+    metadata.set(image::kSceneKey, scene::print_scene(job.loaded.scene));
+    if (w != render::Window{0, 0, film.width, film.height}) {
+        metadata.set("strata:crop", fmt::format("{},{},{},{}", w.x0, w.y0, w.x1, w.y1));
+    }
+    metadata.set("strata:tracer", job.tracer);
+    metadata.set("strata:format", format);
+    metadata.set("strata:simd_target", noise::simd_target());
+    metadata.set("strata:estimator", scene::name_of(sampling.estimator));
+    metadata.set("strata:samples", sampling.estimator == scene::EstimatorKind::none ? 1 : sampling.N * sampling.N);
+    metadata.set("strata:filter", filter_text(sampling));
+    metadata.set("strata:seed", sampling.seed);
+    return metadata;
+}
+
+}  // namespace
+
+fs::path partial_path(fs::path path) {
+    const std::string extension = path.extension().string();
+    return path.replace_extension(".partial" + extension);
+}
+
+Job prepare(const RenderRequest& request) {
+    Job job;
+    job.quiet = request.quiet;
+    job.threads = parse_integer("--threads", request.threads, 0, kMostThreads);
+    job.tile = parse_integer("--tile", request.tile, 1, kLargestTile);
+    job.loaded = request.scene.load();
+    choose_simd_target(request, job.loaded);
+    job.window = choose_window(request, job.loaded);
+    job.tracer = choose(request.tracer, job.loaded.tracer, "fast");
+    parse_tracer(job.tracer);
+    const std::string format = choose(request.format, job.loaded.exr_format, "half");
+    job.write = {.exposure = job.loaded.scene.film.exposure, .exr_format = parse_format(format)};
+    check_memory(job.window);
+    job.outputs = output_paths(request, job);
+    job.statistics = request.statistics;
+    check_statistics(job);
+    job.metadata = describe(job, format);
+    return job;
+}
+
+}  // namespace strata::tools

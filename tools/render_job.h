@@ -1,0 +1,42 @@
+// A render as the command line asks for it, checked and completed before the first ray.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "src/image/encode.h"
+#include "src/image/metadata.h"
+#include "src/render/film.h"
+#include "tools/scene_argument.h"
+
+namespace strata::tools {
+
+// The options as typed; empty where there is none.
+struct RenderRequest {
+    SceneArgument scene;
+    std::vector<std::string> outputs;
+    std::string crop, tracer, simd, format, statistics, threads = "0", tile = "32";
+    bool quiet = false;
+};
+
+// All that is known before the first ray.
+struct Job {
+    LoadedScene loaded;
+    render::Window window;
+    std::vector<std::filesystem::path> outputs;
+    std::filesystem::path statistics;  // empty: none
+    image::WriteOptions write;
+    image::Metadata metadata;
+    std::string tracer;
+    int threads = 0, tile = 0;
+    bool quiet = false;
+};
+
+// Throws UsageError or SceneError for what cannot be asked for, ImageError for outputs that cannot be written.
+Job prepare(const RenderRequest& request);
+
+// NAME.partial.EXT beside NAME.EXT.
+std::filesystem::path partial_path(std::filesystem::path path);
+
+}  // namespace strata::tools
