@@ -2,17 +2,12 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <thread>
 
 #include "noise/simd_target.h"
-#include "src/image/image_error.h"
 #include "src/image/output_file.h"
 #include "src/render/progress_printer.h"
 
@@ -32,10 +27,6 @@ std::string scaled(double count) {
     if (count >= 1e6) return fmt::format("{:.2f} M", count / 1e6);
     if (count >= 1e4) return fmt::format("{:.1f} k", count / 1e3);
     return fmt::format("{:.0f}", count);
-}
-
-void refuse_unless(bool fine, const std::filesystem::path& path, const std::string& reason) {
-    if (!fine) throw image::ImageError(fmt::format("cannot write \"{}\": {}", path.string(), reason));
 }
 
 }  // namespace
@@ -65,25 +56,6 @@ std::string summary(const RunStatistics& statistics) {
     }
     text += fmt::format("memory   {:.0f} MB at most\n", static_cast<double>(statistics.peak_memory_bytes) / 1e6);
     return text;
-}
-
-void check_statistics_path(const std::filesystem::path& path) {
-    namespace fs = std::filesystem;
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    std::error_code error;
-    refuse_unless(path.has_filename(), path, "it names no file");
-    refuse_unless(fs::is_directory(folder, error), path, fmt::format("there is no folder \"{}\"", folder.string()));
-    std::string probe = (folder / ".strata-XXXXXX").string();
-    const int descriptor = ::mkstemp(probe.data());
-    refuse_unless(descriptor >= 0, path, "no new file in its folder: " + std::generic_category().message(errno));
-    ::close(descriptor);
-    ::unlink(probe.c_str());
-    const fs::file_status status = fs::status(path, error);
-    if (status.type() == fs::file_type::not_found) return;
-    refuse_unless(status.type() != fs::file_type::none, path, error.message());
-    refuse_unless(fs::is_regular_file(status), path, "it is not a regular file");
-    const bool file_is_writable = ::access(path.c_str(), W_OK) == 0;
-    refuse_unless(file_is_writable, path, std::generic_category().message(errno));
 }
 
 void write_statistics(const std::filesystem::path& path, const RunStatistics& statistics) {

@@ -24,9 +24,6 @@ RunStatistics collect(const render::RenderResult& result, int threads, const std
 // A few lines for people.
 std::string summary(const RunStatistics& statistics);
 
-// Whether a statistics file can be written there; a file is made in the folder and removed. Throws ImageError.
-void check_statistics_path(const std::filesystem::path& path);
-
 // As JSON, written beside and renamed. Throws ImageError when that fails.
 void write_statistics(const std::filesystem::path& path, const RunStatistics& statistics);
 

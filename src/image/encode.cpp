@@ -126,8 +126,8 @@ bool write_strips(OIIO::ImageOutput& output, const Picture& picture, OIIO::TypeD
     const int top = output.spec().y;
     for (int y = 0; y < picture.height(); y += kStripRows) {
         const int rows = std::min(kStripRows, picture.height() - y);
-        const auto strip = convert(rgb.subspan(static_cast<std::size_t>(y) * row_values,
-                                               static_cast<std::size_t>(rows) * row_values));
+        const auto strip =
+            convert(rgb.subspan(static_cast<std::size_t>(y) * row_values, static_cast<std::size_t>(rows) * row_values));
         if (!output.write_scanlines(top + y, top + y + rows, 0, type, strip.data())) return false;
     }
     return true;

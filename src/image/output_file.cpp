@@ -103,6 +103,11 @@ void check_folder(const fs::path& path) {
 
 void check_writable(const fs::path& path) {
     format_of(path);
+    check_replaceable(path);
+}
+
+void check_replaceable(const fs::path& path) {
+    if (!path.has_filename()) fail(path, "it names no file");
     check_folder(path);
     check_target(path);
     const TemporaryFile probe(resolve_links(path));

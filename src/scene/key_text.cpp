@@ -86,7 +86,7 @@ std::string value_text(const Key& key) {
 std::string allowed_text(const Key& key) {
     std::string text = std::visit(
         Overload{[](const bool*) { return std::string("true or false"); },
-                 [&](const int*) { return "integers " + range_text(key); },
+                 [&](const int*) { return fmt::format("integers {:.0f} to {:.0f}", key.range.min, key.range.max); },
                  [](const std::uint64_t*) { return fmt::format("integers 0 to {}", kLargestSeed); },
                  [&](const double*) { return range_text(key); }, [&](const glm::dvec3*) { return vector_text(key); },
                  [](const std::string*) { return std::string("text in quotes"); },

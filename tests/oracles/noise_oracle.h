@@ -31,7 +31,8 @@ inline std::uint32_t scramble(std::uint32_t x) {
 inline std::uint32_t plane_hash(std::int64_t index, std::uint32_t key) {
     const std::uint64_t shifted = static_cast<std::uint64_t>(index) + (std::uint64_t{1} << 31);
     const auto block = scramble(static_cast<std::uint32_t>(shifted >> 32) ^ key);
-    const std::uint32_t x = static_cast<std::uint32_t>(shifted & 0xFFFFFFFFu) ^ block; const std::uint32_t product = (x ^ (x >> 16)) * 2654435761u;
+    const std::uint32_t x = static_cast<std::uint32_t>(shifted & 0xFFFFFFFFu) ^ block;
+    const std::uint32_t product = (x ^ (x >> 16)) * 2654435761u;
     return product ^ (product >> 15);
 }
 
