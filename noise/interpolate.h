@@ -64,21 +64,22 @@ double corner_ramp(const std::array<double, D>& gradient, const Point<D>& fracti
     return dot;
 }
 
-// n(f) alone, by nested linear interpolation of the corner ramps: along axis 0 first.
+// n(f) from the corners' ramps, by nested linear interpolation: along axis 0 first.
 template <int D>
-double interpolate_value(const CornerGradients<D>& gradients, const Point<D>& fraction) {
-    std::array<std::array<double, 2>, D> offset;
-    for (std::size_t a = 0; a < D; ++a) offset[a] = {fraction[a], fraction[a] - 1.0};
-    std::array<double, (1 << D)> ramp;
-    for (std::size_t c = 0; c < ramp.size(); ++c) {
-        ramp[c] = gradients[c][0] * offset[0][c & 1];
-        for (std::size_t a = 1; a < D; ++a) ramp[c] += gradients[c][a] * offset[a][(c >> a) & 1];
-    }
+double interpolate_ramps(std::array<double, (1 << D)> ramp, const Point<D>& fraction) {
     for (std::size_t a = 0, pairs = ramp.size() / 2; a < D; ++a, pairs /= 2) {
         const double weight = fade(fraction[a]);
         for (std::size_t i = 0; i < pairs; ++i) ramp[i] = ramp[2 * i] + weight * (ramp[2 * i + 1] - ramp[2 * i]);
     }
     return ramp[0];
+}
+
+// n(f) alone.
+template <int D>
+double interpolate_value(const CornerGradients<D>& gradients, const Point<D>& fraction) {
+    std::array<double, (1 << D)> ramp;
+    for (std::size_t c = 0; c < ramp.size(); ++c) ramp[c] = corner_ramp<D>(gradients[c], fraction, c);
+    return interpolate_ramps<D>(ramp, fraction);
 }
 
 // n(f), its gradient and its Hessian, by the product rule, in lattice units.

@@ -59,22 +59,35 @@ inline std::array<std::uint32_t, 2> plane_pair(std::int64_t cell, std::uint32_t 
     return {below, above};
 }
 
+// The gradient that each corner's hash selects, in the table.
 template <int D>
-CornerGradients<D> corner_gradients(const LatticeKey& key, const std::array<std::int64_t, D>& cell) {
+std::array<const std::array<double, D>*, (1 << D)> selected_gradients(const LatticeKey& key,
+                                                                      const std::array<std::int64_t, D>& cell) {
     std::array<std::array<std::uint32_t, 2>, D> words;
     for (std::size_t a = 0; a < D; ++a) words[a] = plane_pair(cell[a], key.axis[a]);
-    CornerGradients<D> gradients;
-    for (std::size_t c = 0; c < gradients.size(); ++c) {
+    std::array<const std::array<double, D>*, (1 << D)> selected;
+    for (std::size_t c = 0; c < selected.size(); ++c) {
         std::uint32_t word = 0;
         for (std::size_t a = 0; a < D; ++a) word ^= words[a][(c >> a) & 1];
-        gradients[c] = kDoubleGradients<D>[(corner_hash(word) >> kGradientShift) & (kDoubleGradients<D>.size() - 1)];
+        selected[c] = &kDoubleGradients<D>[(corner_hash(word) >> kGradientShift) & (kDoubleGradients<D>.size() - 1)];
     }
+    return selected;
+}
+
+template <int D>
+CornerGradients<D> corner_gradients(const LatticeKey& key, const std::array<std::int64_t, D>& cell) {
+    const auto selected = selected_gradients<D>(key, cell);
+    CornerGradients<D> gradients;
+    for (std::size_t c = 0; c < gradients.size(); ++c) gradients[c] = *selected[c];
     return gradients;
 }
 
 template <int D>
 double reference_value(const LatticeKey& key, const LatticePoint<D>& at) {
-    return interpolate_value<D>(corner_gradients<D>(key, at.cell), at.fraction);
+    const auto selected = selected_gradients<D>(key, at.cell);
+    std::array<double, (1 << D)> ramp;
+    for (std::size_t c = 0; c < ramp.size(); ++c) ramp[c] = corner_ramp<D>(*selected[c], at.fraction, c);
+    return interpolate_ramps<D>(ramp, at.fraction);
 }
 
 template <int D>
