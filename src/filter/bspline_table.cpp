@@ -71,7 +71,7 @@ BsplineTable::BsplineTable(int m) : order_(m), table_floor_(2 * kCentre) {
     first_cell_ = first_cell(m);
     last_cell_ = cell_of(kCentre);
     table_floor_ = cell_start(first_cell_);
-    cubics_.reserve(static_cast<std::size_t>(last_cell_ - first_cell_ + 1));
+    cubics_.reserve(static_cast<std::size_t>(last_cell_) - static_cast<std::size_t>(first_cell_) + 1);
     for (std::int32_t cell = first_cell_; cell < last_cell_; ++cell) cubics_.push_back(fit_cell(m, cell));
     // |q| = 1/2 starts a cell of its own, which is the centre.
     cubics_.push_back({});

@@ -38,8 +38,8 @@ std::vector<trace::Ray> pixel_rays(const scene::Scene& scene, std::size_t stride
     const auto width = static_cast<std::size_t>(scene.film.width), height = static_cast<std::size_t>(scene.film.height);
     std::vector<trace::Ray> rays;
     for (std::size_t i = 0; i < width * height; i += stride) {
-        const trace::CameraRay seen =
-            camera.ray(static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5);
+        const std::size_t x = i % width, y = i / width;
+        const trace::CameraRay seen = camera.ray(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
         rays.push_back(placement.to_local(orientation, {.origin = camera.position(),
                                                         .direction = seen.direction,
                                                         .limit = scene.camera.far,
