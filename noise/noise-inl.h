@@ -26,7 +26,6 @@ using WordTag = hn::RebindToUnsigned<FloatTag>;
 using IndexTag = hn::RebindToSigned<FloatTag>;
 using FloatVec = hn::Vec<FloatTag>;
 using WordVec = hn::Vec<WordTag>;
-using IndexVec = hn::Vec<IndexTag>;
 
 HWY_INLINE FloatVec lerp(FloatVec a, FloatVec b, FloatVec t) { return hn::MulAdd(t, hn::Sub(b, a), a); }
 

@@ -67,7 +67,7 @@ void each_line(std::size_t least, std::size_t most, const char* allowed, const U
     if (std::ferror(stdin) != 0) throw std::runtime_error("cannot read standard input");
 }
 
-// Beyond 2^52 cells of the finest octave, double cannot tell positions in a cell (scene/validate.h).
+// Beyond 2^50 cells of the finest octave, double cannot tell positions in a cell (scene/validate.h).
 void check_within_reach(const trace::Field& field, double distance) {
     double finest = 0.0;
     for (const noise::Octave& octave : field.octaves()) finest = std::max(finest, octave.frequency);
@@ -76,6 +76,13 @@ void check_within_reach(const trace::Field& field, double distance) {
         fmt::format("within {:.3g} surface units of surface.origin, where double tells the finest octave's "
                     "cells apart",
                     scene::kMostCells / finest)};
+}
+
+// Where a spinning surface stands at a time given by the user.
+glm::dmat3 orientation_at(const trace::Placement& placement, double t) {
+    const glm::dmat3 orientation = placement.orientation(t);
+    if (std::isfinite(orientation[0][0])) return orientation;
+    throw BadLine{"a time at which the surface's turns can be counted in double"};
 }
 
 scene::Scene surface_scene(const SceneArgument& argument, const char* what) {
@@ -93,7 +100,7 @@ void probe_field(const SceneArgument& argument) {
     const trace::Field field(scene.surface);
     const trace::Placement placement(scene.surface);
     each_line(3, 4, "x y z [t], world units and seconds", [&](const std::vector<double>& in) {
-        const glm::dmat3 orientation = placement.orientation(in.size() > 3 ? in[3] : mid_shutter(scene));
+        const glm::dmat3 orientation = orientation_at(placement, in.size() > 3 ? in[3] : mid_shutter(scene));
         const glm::dvec3 x = placement.point_to_local(orientation, {in[0], in[1], in[2]});
         check_within_reach(field, glm::length(x));
         std::string octaves;
@@ -106,7 +113,7 @@ void probe_field(const SceneArgument& argument) {
 }
 
 void print_ray(const render::SurfaceImage& image, const trace::Ray& world, double t) {
-    const glm::dmat3 orientation = image.placement().orientation(t);
+    const glm::dmat3 orientation = orientation_at(image.placement(), t);
     const trace::Ray ray = image.placement().to_local(orientation, world);
     trace::Hit hit;
     trace::TraceCounters counters;

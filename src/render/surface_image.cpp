@@ -6,6 +6,7 @@
 #include "shaders_cpu/sky.h"
 #include "shaders_cpu/terrain_material.h"
 #include "src/trace/reference_tracer.h"
+#include "src/trace/shadow_ray.h"
 
 namespace strata::render {
 
@@ -13,9 +14,6 @@ namespace {
 
 // Rays traced at once: enough to keep packets full, few enough for their data to stay in the second-level cache.
 constexpr std::size_t kChunk = 1024;
-
-// Points far along a ray are rounded by 2^-52 of their size at most a few times: a shadow ray is lifted by more.
-constexpr double kLift = 0x1p-48;
 
 void add(Counters& to, const trace::TraceCounters& from) {
     to.noise_evaluations += from.noise_evaluations;
@@ -30,7 +28,7 @@ struct SurfaceImage::Lit {
     std::size_t sample = 0;
     glm::dvec3 normal{0.0};
     glm::dvec3 up{0.0, 1.0, 0.0};
-    glm::dvec3 view{0.0};  // the ray's direction
+    glm::dvec3 view{0.0};  // the ray's direction, as the sky lies
     glm::dvec3 sun{0.0};
     double height = 0.0;
     double distance = 0.0;
@@ -41,15 +39,16 @@ struct SurfaceImage::Lit {
 struct SurfaceImage::Chunk {
     std::vector<trace::Ray> rays, shadow_rays;
     std::vector<trace::Hit> hits, surface_hits, shadow_hits;
-    std::vector<glm::dvec3> sun, x;
+    std::vector<glm::dvec3> view, sun, x;
     std::vector<glm::vec3> normal;
     std::vector<Lit> lit;
     std::vector<std::size_t> shadow_owner;
 };
 
-SurfaceImage::SurfaceImage(const scene::Scene& scene, Tracer tracer)
+SurfaceImage::SurfaceImage(const scene::Scene& scene, Tracer tracer, std::uint32_t step_limit)
     : scene_(scene),
       tracer_(tracer),
+      step_limit_(step_limit),
       field_(scene.surface),
       fast_(field_),
       placement_(scene.surface),
@@ -62,7 +61,8 @@ trace::Ray SurfaceImage::camera_ray(double u, double v) const {
             .direction = seen.direction,
             .limit = scene_.camera.far,
             .delta0 = 0.0,
-            .delta_slope = scene_.sampling.tolerance * seen.pixel_angle};
+            .delta_slope = scene_.sampling.tolerance * seen.pixel_angle,
+            .step_limit = step_limit_};
 }
 
 trace::Ray SurfaceImage::world_ray(const glm::dvec3& origin, const glm::dvec3& direction) const {
@@ -109,13 +109,16 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
     const std::size_t count = samples.u.size();
     trace::TraceCounters traced;
 
-    // Rays, turned into the surface's coordinates at their own time.
+    // Rays, turned into the surface's coordinates at their own time. The sky does not spin with it.
     chunk.rays.resize(count);
+    chunk.view.resize(count);
     chunk.sun.resize(count);
     glm::dmat3 orientation = placement_.orientation(0.0);
     for (std::size_t i = 0; i < count; ++i) {
         if (placement_.moves()) orientation = placement_.orientation(samples.t[i]);
-        chunk.rays[i] = placement_.to_local(orientation, camera_ray(samples.u[i], samples.v[i]));
+        const trace::Ray world = camera_ray(samples.u[i], samples.v[i]);
+        chunk.rays[i] = placement_.to_local(orientation, world);
+        chunk.view[i] = trace::Placement::direction_to_local(placement_.resting_orientation(), world.direction);
         chunk.sun[i] = trace::Placement::direction_to_local(orientation, sun_direction_);
     }
     chunk.hits.resize(count);
@@ -129,14 +132,14 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
         const trace::Ray& ray = chunk.rays[i];
         const trace::Hit& hit = chunk.hits[i];
         if (hit.state == trace::HitState::miss) {
-            radiance[i] = shaders::sky_radiance(scene_.sky, ray.direction);
+            radiance[i] = shaders::sky_radiance(scene_.sky, chunk.view[i]);
         } else if (hit.state == trace::HitState::unresolved) {
             radiance[i] = kUnresolvedRadiance;
             ++counters.unresolved_rays;
         } else {
             chunk.x.push_back(ray.origin + hit.s * ray.direction);
             chunk.surface_hits.push_back(hit);
-            chunk.lit.push_back({.sample = i, .view = ray.direction, .sun = chunk.sun[i], .distance = hit.s});
+            chunk.lit.push_back({.sample = i, .view = chunk.view[i], .sun = chunk.sun[i], .distance = hit.s});
         }
     }
     chunk.normal.resize(chunk.x.size());
@@ -156,8 +159,7 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
     counters.hits += chunk.lit.size();
 }
 
-// A shadow ray leaves from the last point known to be outside, so that it does not start in the surface it left. A
-// point of the convex bound that faces the sun sees it.
+// A point of the convex bound that faces the sun sees it.
 void SurfaceImage::shadow(Chunk& chunk, Counters& counters) const {
     chunk.shadow_rays.clear();
     chunk.shadow_owner.clear();
@@ -165,12 +167,7 @@ void SurfaceImage::shadow(Chunk& chunk, Counters& counters) const {
         const Lit& lit = chunk.lit[i];
         const trace::Hit& hit = chunk.surface_hits[i];
         if (glm::dot(lit.normal, lit.sun) <= 0.0 || hit.on_bound) continue;
-        trace::Ray ray = chunk.rays[lit.sample];
-        ray.delta0 += ray.delta_slope * hit.s;
-        const double size = glm::length(ray.origin) + hit.s;
-        ray.origin += hit.s_outside * ray.direction + kLift * size * lit.normal;
-        ray.direction = lit.sun;
-        chunk.shadow_rays.push_back(ray);
+        chunk.shadow_rays.push_back(trace::shadow_ray(chunk.rays[lit.sample], hit, lit.normal, lit.sun));
         chunk.shadow_owner.push_back(i);
     }
     chunk.shadow_hits.resize(chunk.shadow_rays.size());

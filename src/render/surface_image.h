@@ -20,7 +20,7 @@ inline constexpr glm::vec3 kUnresolvedRadiance{1.0f, 0.0f, 1.0f};
 class SurfaceImage final : public ImageFunction {
   public:
     // scene.image is `surface`, and the scene is valid.
-    SurfaceImage(const scene::Scene& scene, Tracer tracer);
+    SurfaceImage(const scene::Scene& scene, Tracer tracer, std::uint32_t step_limit = trace::kStepLimit);
     SurfaceImage(const SurfaceImage&) = delete;  // fast_ refers to field_
     SurfaceImage& operator=(const SurfaceImage&) = delete;
 
@@ -53,6 +53,7 @@ class SurfaceImage final : public ImageFunction {
 
     scene::Scene scene_;
     Tracer tracer_;
+    std::uint32_t step_limit_;
     trace::Field field_;
     trace::FastTracer fast_;
     trace::Placement placement_;

@@ -27,9 +27,6 @@ inline float folded_stratum(std::uint32_t i, std::uint32_t n, std::uint32_t word
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(p) | (static_cast<std::uint32_t>(lower) << 31));
 }
 
-// y = unit(word), folded.
-inline float folded_unit(std::uint32_t word) { return folded_stratum(0, 1, word); }
-
 // (i + unit(word)) / n, in [0,1).
 inline float stratum(std::uint32_t i, std::uint32_t n, std::uint32_t word) {
     return std::min((static_cast<float>(i) + unit_float(word)) / static_cast<float>(n), kBelowOne);

@@ -44,7 +44,7 @@ void check_octaves(const Scene& scene) {
             throw SceneError(
                 fmt::format("surface.octaves: octave {} of {} is too fine for double precision ({:.3g} lattice cells a "
                             "surface unit, "
-                            "seen up to {:.3g} surface units from surface.origin, exceed 2^52 cells), allowed: "
+                            "seen up to {:.3g} surface units from surface.origin, exceed 2^50 cells), allowed: "
                             "{}surface.frequency or "
                             "{}",
                             k + 1, surface.octaves, frequency, farthest, octaves,

@@ -7,9 +7,10 @@
 
 namespace strata::scene {
 
-// Lattice cells are counted in double from the surface's origin. Beyond this many, positions inside a cell would be
-// rounded to whole quarters or worse: the noise would turn into steps.
-inline constexpr double kMostCells = 4503599627370496.0;  // 2^52
+// Lattice cells are counted in double from the surface's origin. Beyond this many within reach of the eye's rays,
+// positions inside a cell would be rounded to quarters or worse: the noise would turn into steps. Shadow rays reach
+// twice as far, to 2^51, where the fast tracer's cell arithmetic ends (trace/wide-inl.h).
+inline constexpr double kMostCells = 0x1p50;
 
 // Checks a whole scene, however it came about, before any ray is cast: every key against its range, then what no key
 // can tell alone (an eye that looks at itself; octaves too fine for double within reach). SceneError names key, value

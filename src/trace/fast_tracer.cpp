@@ -56,7 +56,8 @@ struct Evaluation {
     FloatVec f;      // base minus the evaluated octaves
     FloatVec error;  // of f
     FloatVec slope;  // of f along the ray; of use where all octaves were evaluated
-    FloatVec rest;   // bound of the octaves not evaluated
+    FloatVec base_slope;
+    FloatVec rest;  // bound of the octaves not evaluated
     OctaveBounds bounds;
     hn::Mask<FloatTag> complete;  // all octaves were evaluated
     WordVec octaves;              // how many were
@@ -75,7 +76,7 @@ HWY_INLINE Evaluation evaluate(const TracePlan& plan, const Field& field, const 
     const FloatVec hint = hn::Load(d, packet.hint), span = hn::Mul(hint, hn::Load(d, packet.speed));
     const FloatVec dx = to_float(direction.x), dy = to_float(direction.y), dz = to_float(direction.z);
     const Base base = base_at<kKind>(field, x, direction);
-    Evaluation at{base.value, hn::Zero(d), base.slope, hn::Zero(d), no_bounds(), {}, hn::Zero(dw)};
+    Evaluation at{base.value, hn::Zero(d), base.slope, base.slope, hn::Zero(d), no_bounds(), {}, hn::Zero(dw)};
     at.error = hn::MulAdd(hn::Abs(base.value), hn::Set(d, plan.error_relative), hn::Set(d, plan.error_absolute));
     auto open = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
     cache.count = 0;
@@ -105,9 +106,9 @@ HWY_INLINE Evaluation evaluate(const TracePlan& plan, const Field& field, const 
     return at;
 }
 
-// Replaces f where float cannot tell its sign by the reference path's value, which is exact here.
-HWY_INLINE void settle_doubt(const Field& field, Packet& packet, const WidePoint& x, Evaluation& at,
-                             TraceCounters& counters) {
+// Replaces f where float cannot tell its sign by the reference path's value in double.
+HWY_INLINE void settle_doubt(const Field& field, const TracePlan& plan, Packet& packet, const WidePoint& x,
+                             Evaluation& at, TraceCounters& counters) {
     const FloatTag d;
     const auto doubtful = hn::And(at.complete, hn::Le(hn::Abs(at.f), hn::Mul(at.error, hn::Set(d, kDoubtful))));
     if (HWY_LIKELY(hn::AllFalse(d, doubtful))) return;
@@ -122,7 +123,7 @@ HWY_INLINE void settle_doubt(const Field& field, Packet& packet, const WidePoint
     for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
         if (flag[lane] == 0.0f) continue;
         f[lane] = static_cast<float>(field.value({point[0][lane], point[1][lane], point[2][lane]}));
-        error[lane] = std::abs(f[lane]) * 0x1p-23f;
+        error[lane] = std::abs(f[lane]) * plan.error_relative;
         const std::size_t octaves = field.octaves().size();
         packet.evaluations[lane] += static_cast<std::uint32_t>(octaves);
         counters.noise_evaluations += octaves;
@@ -133,28 +134,31 @@ HWY_INLINE void settle_doubt(const Field& field, Packet& packet, const WidePoint
 }
 
 // The longest step that is certified to stay outside the surface.
-HWY_INLINE FloatVec safe_step(const TracePlan& plan, const Packet& packet, const Evaluation& at, FloatVec base_slope,
-                              FloatVec delta, const OctaveCache& cache) {
+HWY_INLINE FloatVec safe_step(const TracePlan& plan, const Packet& packet, const Evaluation& at, FloatVec delta,
+                              const OctaveCache& cache) {
     const FloatTag d;
     const FloatVec speed = hn::Load(d, packet.speed), hint = hn::Load(d, packet.hint);
     const FloatVec certain = hn::Sub(at.f, hn::Add(at.rest, at.error));
-    const FloatVec fall = hn::Sub(base_slope, hn::Set(d, plan.slope_error));
+    const FloatVec slope = hn::Sub(at.base_slope, hn::Set(d, plan.slope_error));
     const auto solve = [&](const OctaveBounds& bounds, FloatVec step) HWY_ATTR {
         const FloatVec root =
-            first_root(hn::Sub(certain, bounds.drop), hn::MulAdd(fall, step, bounds.fall), bounds.bend);
+            first_root(hn::Sub(certain, bounds.drop), hn::MulAdd(slope, step, bounds.slope), bounds.bend);
         return hn::Mul(root, step);
     };
     // The global Lipschitz step is where to look again when the hint was so far off that it gave no step.
     const FloatVec first = solve(at.bounds, hint);
     const FloatVec least = hn::Mul(hn::Max(certain, hn::Zero(d)), hn::Set(d, plan.inverse_lipschitz));
     const FloatVec again = hn::Min(hn::Max(hn::Max(first, delta), least), hn::Set(d, 1e15f));
+    const FloatVec span = hn::Mul(again, speed);
     OctaveBounds bounds = no_bounds();
     for (std::size_t k = 0; k < cache.count; ++k) {
         const TraceOctave& octave = plan.octaves[k];
         const auto use = hn::RebindMask(d, hn::Gt(hn::BitCast(hn::RebindToSigned<FloatTag>(), at.octaves),
                                                   hn::Set(hn::RebindToSigned<FloatTag>(), static_cast<int>(k))));
-        const FloatVec wh = hn::Mul(hn::Set(d, octave.wave), again);
-        bounds = add_octave(bounds, plan, octave, cache.value[k], cache.slope[k], wh, hn::Mul(wh, speed), use);
+        // The span first: a vertical ray's speed of 0 must not meet an infinite product.
+        const FloatVec wave = hn::Set(d, octave.wave);
+        bounds = add_octave(bounds, plan, octave, cache.value[k], cache.slope[k], hn::Mul(wave, again),
+                            hn::Mul(wave, span), use);
     }
     return hn::Max(first, solve(bounds, again));
 }
@@ -187,12 +191,11 @@ HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, 
     OctaveCache cache;
     Evaluation at = evaluate<kKind>(plan, field, packet, x, direction, cache, counters);
     hn::Store(hn::Add(hn::Load(dw, packet.evaluations), at.octaves), dw, packet.evaluations);
-    settle_doubt(field, packet, x, at, counters);
+    settle_doubt(field, plan, packet, x, at, counters);
 
     const Wide delta = mul_add(load_wide(packet.delta_slope), s, load_wide(packet.delta0));
     const FloatVec delta_float = to_float(delta);
-    const FloatVec base_slope = base_at<kKind>(field, x, direction).slope;
-    const FloatVec safe = safe_step(plan, packet, at, base_slope, delta_float, cache);
+    const FloatVec safe = safe_step(plan, packet, at, delta_float, cache);
     const auto inside = hn::And(at.complete, hn::Le(at.f, hn::Zero(d)));
 
     alignas(HWY_MAX_BYTES) float f[kMaxLanes], slope[kMaxLanes], hit[kMaxLanes];
@@ -210,7 +213,7 @@ HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, 
         ++counters.steps;
         const bool is_hit = hit[lane] != 0.0f;
         const bool is_miss = !is_hit && landing[lane] >= packet.end[lane];
-        if (is_hit || is_miss || packet.steps[lane] >= kStepLimit) {
+        if (is_hit || is_miss || packet.steps[lane] >= packet.step_limit[lane]) {
             const HitState state = is_hit ? HitState::hit : is_miss ? HitState::miss : HitState::unresolved;
             report(packet, lane, state, f[lane], slope[lane], hits[packet.ray[lane]]);
             drop_lane(packet, lane);

@@ -20,14 +20,17 @@ std::vector<noise::Octave> live_octaves(const scene::Surface& surface) {
                                                               .amplitude = surface.amplitude,
                                                               .frequency = surface.frequency,
                                                               .seed = surface.seed});
-    // What is below the last bit of a double beside the first octave cannot change the sum.
+    // What is below the last bit of a double beside the first octave, in value and in slope, changes nothing.
     const double least = octaves.front().amplitude * 0x1p-70;
-    std::erase_if(octaves, [&](const noise::Octave& octave) { return octave.amplitude <= least; });
+    const double least_slope = least * octaves.front().frequency;
+    std::erase_if(octaves, [&](const noise::Octave& octave) {
+        return octave.amplitude <= least && octave.amplitude * octave.frequency <= least_slope;
+    });
     return octaves;
 }
 
-// Clipping planes and spheres are moved outwards by this fraction of their distance, far above the rounding of a
-// quadratic's roots in double and far below any tolerance.
+// The slab's plane and the planet's shell are moved outwards by this fraction of the lengths involved, far above the
+// rounding of the roots in double. An isosurface's bound is a surface itself and stays where it is.
 constexpr double kClipSlack = 1e-9;
 
 Interval clip_below(double height, double top, double slope, double limit) {
@@ -140,7 +143,8 @@ Interval Field::clip(const glm::dvec3& origin, const glm::dvec3& direction, doub
         case SurfaceKind::hyperterrain:
             return clip_below(origin.y, amplitude_, direction.y, limit);
         case SurfaceKind::planet: {
-            Interval shell = clip_ball(origin, direction, (surface_.radius + amplitude_) * (1.0 + kClipSlack), limit);
+            const double reach = surface_.radius + amplitude_;
+            Interval shell = clip_ball(origin, direction, reach + kClipSlack * (reach + glm::length(origin)), limit);
             shell.enters_bound = false;
             return shell;
         }

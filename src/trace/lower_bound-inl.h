@@ -12,10 +12,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace strata::trace::HWY_NAMESPACE {
 
-// f(s) >= f_here - drop + fall * x - bend * x^2 with x = s / hint: what the chosen bounds of the octaves subtract.
+// f(s) >= f_here - drop + slope * x - bend * x^2 with x = s / hint: what the chosen bounds of the octaves subtract.
 // Relative to the hint every coefficient is of the order of the amplitudes, so none overflows.
 struct OctaveBounds {
-    FloatVec drop, fall, bend;
+    FloatVec drop, slope, bend;
 };
 
 HWY_INLINE OctaveBounds no_bounds() {
@@ -37,8 +37,8 @@ HWY_INLINE OctaveBounds add_octave(const OctaveBounds& sum, const TracePlan& pla
     const auto is_taylor = hn::And(hn::Le(taylor, lipschitz), hn::Le(taylor, peak));
     const auto is_peak = hn::AndNot(is_taylor, hn::Lt(peak, lipschitz));
     const FloatVec drop = hn::IfThenElseZero(is_peak, hn::Sub(peak, v));
-    const FloatVec fall = hn::IfThenZeroElse(is_peak, hn::IfThenElse(is_taylor, tangent, rise));
-    return {hn::MulAdd(amplitude, drop, sum.drop), hn::NegMulAdd(amplitude, fall, sum.fall),
+    const FloatVec climb = hn::IfThenZeroElse(is_peak, hn::IfThenElse(is_taylor, tangent, rise));
+    return {hn::MulAdd(amplitude, drop, sum.drop), hn::NegMulAdd(amplitude, climb, sum.slope),
             hn::MulAdd(amplitude, hn::IfThenElseZero(is_taylor, bend), sum.bend)};
 }
 
@@ -48,7 +48,8 @@ HWY_INLINE FloatVec first_root(FloatVec c0, FloatVec c1, FloatVec c2) {
     const FloatTag d;
     const FloatVec four = hn::Set(d, 4.0f), two = hn::Set(d, 2.0f);
     const FloatVec start = hn::Max(c0, hn::Zero(d));
-    const FloatVec q = hn::Sqrt(hn::MulAdd(c1, c1, hn::Mul(four, hn::Mul(c2, start))));
+    // No less than |c1|, also where its square vanishes.
+    const FloatVec q = hn::Max(hn::Sqrt(hn::MulAdd(c1, c1, hn::Mul(four, hn::Mul(c2, start)))), hn::Abs(c1));
     const auto falls = hn::Lt(c1, hn::Zero(d));
     const FloatVec numerator = hn::IfThenElse(falls, hn::Mul(two, start), hn::Add(c1, q));
     const FloatVec denominator = hn::IfThenElse(falls, hn::Sub(q, c1), hn::Mul(two, c2));

@@ -34,6 +34,7 @@ struct Packet {
     alignas(HWY_MAX_BYTES) float active[kMaxLanes] = {};  // 1 or 0
     alignas(HWY_MAX_BYTES) std::uint32_t evaluations[kMaxLanes] = {};
     std::uint32_t steps[kMaxLanes] = {};
+    std::uint32_t step_limit[kMaxLanes] = {};
     std::size_t ray[kMaxLanes] = {};
     bool enters_bound[kMaxLanes] = {};
     double reach = 0.0;  // bound of |x| on every axis over all rays taken so far
@@ -62,6 +63,7 @@ HWY_INLINE void take_ray(Packet& packet, std::size_t lane, const Ray& ray, std::
     packet.active[lane] = 1.0f;
     packet.evaluations[lane] = 0;
     packet.steps[lane] = 0;
+    packet.step_limit[lane] = ray.step_limit;
     packet.ray[lane] = index;
     packet.enters_bound[lane] = inside.enters_bound;
     ++packet.active_count;

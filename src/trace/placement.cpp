@@ -1,10 +1,14 @@
 #include "src/trace/placement.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace strata::trace {
 
 namespace {
+
+// Positions along a ray are rounded by 2^-52 of their size or less: a tolerance finer than a few of that is none.
+constexpr double kLeastDelta = 0x1p-50;
 
 // Rodrigues' formula; exact for multiples of 90 degrees about an axis of the frame.
 glm::dmat3 rotation_about(const glm::dvec3& unit_axis, double degrees) {
@@ -43,8 +47,9 @@ Ray Placement::to_local(const glm::dmat3& orientation, const Ray& world) const {
     local.origin = point_to_local(orientation, world.origin);
     local.direction = glm::normalize(direction_to_local(orientation, world.direction));
     local.limit = world.limit / scale_;
-    local.delta0 = world.delta0 / scale_;
-    local.delta_slope = world.delta_slope;
+    local.delta0 = std::max(world.delta0 / scale_, kLeastDelta * glm::length(local.origin));
+    local.delta_slope = std::max(world.delta_slope, kLeastDelta);
+    local.step_limit = world.step_limit;
     return local;
 }
 

@@ -15,6 +15,9 @@ class Placement {
     bool moves() const { return spin_rate_ != 0.0; }
     double scale() const { return scale_; }
 
+    // Without the spin: what the sky, which does not turn with the surface, is laid out by.
+    const glm::dmat3& resting_orientation() const { return rotation_; }
+
     // Orientation at time t in seconds: the columns are the local axes in the world.
     glm::dmat3 orientation(double t) const;
 
@@ -28,7 +31,7 @@ class Placement {
     static glm::dvec3 direction_to_local(const glm::dmat3& orientation, const glm::dvec3& d) { return d * orientation; }
 
     // A ray of the world, with limit and deltas in world units, in the surface's coordinates: s_local = s_world /
-    // scale.
+    // scale. Deltas are raised to what double can tell along the ray.
     Ray to_local(const glm::dmat3& orientation, const Ray& world) const;
 
   private:

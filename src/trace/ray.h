@@ -6,16 +6,21 @@
 
 namespace strata::trace {
 
+// Steps after which a ray is given up as unresolved.
+inline constexpr std::uint32_t kStepLimit = 1u << 20;
+
 // x(s) = origin + s direction, s in [0, limit); direction is of unit length.
 //
 // delta(s) = delta0 + delta_slope * s is the tolerance: a tracer may pass over a stretch of f < 0 that is no longer,
-// and within it of a reported hit lies a point with f <= 0.
+// and within it of a reported hit lies a point with f <= 0. It must not fall below what double can tell along the ray;
+// Placement::to_local sees to that.
 struct Ray {
     glm::dvec3 origin{0.0};
     glm::dvec3 direction{0.0, 0.0, 1.0};
     double limit = 0.0;
     double delta0 = 0.0;
     double delta_slope = 0.0;
+    std::uint32_t step_limit = kStepLimit;
 };
 
 enum class HitState : std::uint8_t {
@@ -32,9 +37,6 @@ struct Hit {
     std::uint32_t steps = 0;
     std::uint32_t noise_evaluations = 0;
 };
-
-// Steps after which a ray is given up as unresolved.
-inline constexpr std::uint32_t kStepLimit = 1u << 20;
 
 struct TraceCounters {
     std::uint64_t noise_evaluations = 0;

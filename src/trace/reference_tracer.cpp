@@ -10,16 +10,17 @@ Hit trace_reference(const Field& field, const Ray& ray) {
     double s = inside.begin;
     hit.s_outside = s;
     while (s < inside.end) {
-        if (++hit.steps > kStepLimit) {
-            hit.state = HitState::unresolved;
-            hit.s = s;
-            break;
-        }
+        ++hit.steps;
         const double f = field.value(ray.origin + s * ray.direction);
         hit.noise_evaluations += static_cast<std::uint32_t>(field.octaves().size());
         if (f <= 0.0) {
             hit.state = HitState::hit;
             hit.on_bound = inside.enters_bound && hit.steps == 1;
+            hit.s = s;
+            break;
+        }
+        if (hit.steps >= ray.step_limit) {
+            hit.state = HitState::unresolved;
             hit.s = s;
             break;
         }

@@ -26,7 +26,7 @@ TraceOctave prepare(const noise::Octave& octave) {
 
 TracePlan::TracePlan(const Field& field) {
     const noise::NoiseBounds& bounds = field.is_planar_noise() ? noise::kBounds2 : noise::kBounds3;
-    peak = round_up(bounds.value);
+    peak = round_up(bounds.value + kNoiseFloatError);  // M - v must not fall short because v is a float
     slope = round_up(bounds.gradient);
     half_bend = round_up(0.5 * bounds.second);
     double total = 0.0, slopes = 0.0, rest = 0.0;

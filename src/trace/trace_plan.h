@@ -26,9 +26,9 @@ inline constexpr double kNoiseFloatError = 0x1p-15;
 // Sum 2105 e < 2^-12.
 inline constexpr double kSlopeFloatError = 0x1p-12;
 
-// Covers up to 16 roundings of 2^-24 in a bound's coefficient or a root.
-inline constexpr double kRoundUp = 1.0 + 0x1p-20;
-inline constexpr double kRoundDown = 1.0 - 0x1p-20;
+// Covers up to 64 roundings of 2^-25 and less in a bound's coefficient (a sum over up to 32 octaves) or a root.
+inline constexpr double kRoundUp = 1.0 + 0x1p-19;
+inline constexpr double kRoundDown = 1.0 - 0x1p-19;
 
 struct TraceOctave {
     double frequency = 0.0;
@@ -44,7 +44,7 @@ struct TracePlan {
     explicit TracePlan(const Field& field);
 
     std::vector<TraceOctave> octaves;
-    float peak = 0.0f;            // bound of |n|
+    float peak = 0.0f;            // bound of |n|, as it comes out in float
     float slope = 0.0f;           // of |dn/ds|, at unit frequency and speed
     float half_bend = 0.0f;       // half the bound of |d2n/ds2|
     float error_relative = 0.0f;  // rounding error of f: error_relative * |base| + error_absolute

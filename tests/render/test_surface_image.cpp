@@ -222,3 +222,19 @@ TEST_CASE("surface, camera and sun turned together: the same picture") {
         }
     }
 }
+
+TEST_CASE("a ray given up at the step limit is counted and drawn in its own colour") {
+    scene::Scene scene;
+    scene.camera = {.position = {0.0, 1.0, 0.0}, .look_at = {0.0, 0.5, 1.0}};
+    scene.film = {.width = 8, .height = 8};
+    const std::vector<double> u = {4.0}, v = {5.0}, t = {0.0};
+    std::vector<glm::vec3> radiance(1);
+    render::Counters counters;
+    render::SurfaceImage(scene, render::Tracer::fast, 2).evaluate({u, v, t}, radiance, counters);
+    CHECK(counters.unresolved_rays == 1);
+    CHECK(radiance[0] == render::kUnresolvedRadiance);
+    counters = {};
+    render::SurfaceImage(scene, render::Tracer::fast).evaluate({u, v, t}, radiance, counters);
+    CHECK(counters.unresolved_rays == 0);
+    CHECK(radiance[0] != render::kUnresolvedRadiance);
+}

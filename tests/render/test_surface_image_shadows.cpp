@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/render/surface_image.h"
+#include "src/trace/shadow_ray.h"
 #include "tests/trace/ray_families.h"
 
 using namespace strata;
@@ -16,16 +17,6 @@ using trace::HitState;
 using trace::Ray;
 
 namespace {
-
-// As SurfaceImage makes it: lifted by what the position is rounded by.
-Ray shadow_ray(const Ray& seen, const Hit& hit, const glm::dvec3& sun, const glm::dvec3& normal) {
-    Ray ray = seen;
-    ray.origin += hit.s_outside * seen.direction;
-    ray.origin += 0x1p-48 * (glm::length(seen.origin) + hit.s) * normal;
-    ray.delta0 += seen.delta_slope * hit.s;
-    ray.direction = sun;
-    return ray;
-}
 
 Hit trace_one(const trace::FastTracer& tracer, const Ray& ray) {
     Hit hit;
@@ -66,7 +57,7 @@ TEST_CASE("smooth planes and spheres are lit wherever they face the sun, down to
         if (glm::dot(normal, sun) <= turn) continue;
         ++lit;
         grazing += glm::dot(normal, sun) < 1e-2;
-        in_shadow += trace_one(tracer, shadow_ray(ray, hit, sun, normal)).state != HitState::miss;
+        in_shadow += trace_one(tracer, trace::shadow_ray(ray, hit, normal, sun)).state != HitState::miss;
     }
     MESSAGE(lit << " points that face the sun, " << grazing << " in grazing light; in shadow: " << in_shadow);
     CHECK(in_shadow == 0);
@@ -92,7 +83,7 @@ TEST_CASE("on noise surfaces few points are lit or shadowed against the oracle")
             const glm::dvec3 x = ray.origin + hit.s * ray.direction;
             const glm::dvec3 normal = glm::normalize(field.gradient(x));
             if (glm::dot(normal, sun) <= 0.0) continue;
-            const Ray to_sun = shadow_ray(ray, hit, sun, normal);
+            const Ray to_sun = trace::shadow_ray(ray, hit, normal, sun);
             const bool claimed = trace_one(tracer, to_sun).state != HitState::miss;
             const double delta = ray.delta_slope * hit.s;
             const glm::dvec3 from = x + delta * normal;

@@ -20,12 +20,12 @@ std::string error_of(const Scene& scene) {
     return "";
 }
 
-// The first octave, from 0, whose cells within reach exceed 2^52, in long double and from powers; -1: none.
+// The first octave, from 0, whose cells within reach exceed 2^50, in long double and from powers; -1: none.
 int first_too_fine(const Surface& surface, double farthest) {
     for (int k = 0; k < surface.octaves; ++k) {
         const long double amplitude = surface.amplitude * std::pow(static_cast<long double>(surface.gain), k);
         const long double frequency = surface.frequency * std::pow(static_cast<long double>(surface.lacunarity), k);
-        if (amplitude != 0 && frequency * farthest > 0x1p52L) return k;
+        if (amplitude != 0 && frequency * farthest > 0x1p50L) return k;
     }
     return -1;
 }
@@ -51,16 +51,16 @@ TEST_CASE("looking along the up direction is allowed") {
     }
 }
 
-TEST_CASE("an octave past 2^52 cells within reach is refused by number, with what to lower") {
+TEST_CASE("an octave past 2^50 cells within reach is refused by number, with what to lower") {
     Scene scene;
     scene.surface.octaves = 32;
     scene.surface.lacunarity = 10.0;
     scene.surface.frequency = 0.5;
-    scene.camera.far = 999.0;  // reach 1000: octave k + 1 has 500 * 10^k cells, 5e15 > 2^52 at k = 13
+    scene.camera.far = 999.0;  // reach 1000: octave k + 1 has 500 * 10^k cells, 5e15 > 2^50 at k = 13
     CHECK(
         error_of(scene) ==
         "t.toml: surface.octaves: octave 14 of 32 is too fine for double precision (5e+12 lattice cells a surface "
-        "unit, seen up to 1e+03 surface units from surface.origin, exceed 2^52 cells), allowed: surface.octaves up to "
+        "unit, seen up to 1e+03 surface units from surface.origin, exceed 2^50 cells), allowed: surface.octaves up to "
         "13, or a lower surface.lacunarity, surface.frequency or camera.far, or a camera nearer to surface.origin");
     scene.surface.octaves = 13;
     CHECK(error_of(scene) == "");

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "src/scene/builtin.h"
+#include "src/scene/toml_reader.h"
 #include "tests/trace/ray_families.h"
 
 namespace strata::trace_test {
@@ -11,7 +13,8 @@ inline void check_surface(const scene::Surface& surface, std::size_t count, Rand
     const trace::Field field(surface);
     const trace::FastTracer tracer(field);
     const double pixel_angle = log_uniform(random, 2e-4, 5e-3);
-    const std::vector<trace::Ray> rays = RayFamilies(field, tracer, pixel_angle).make(random, count);
+    RayFamilies families(field, tracer, pixel_angle);
+    const std::vector<trace::Ray> rays = families.make(random, count);
     std::vector<trace::Hit> hits(rays.size());
     trace::TraceCounters counters;
     tracer.trace(rays, hits, counters);
@@ -29,12 +32,16 @@ inline void check_surface(const scene::Surface& surface, std::size_t count, Rand
     CHECK(found.unresolved == 0);
     CHECK(found.undecided * 1000 <= found.rays);
     CHECK(found.hits * 10 > found.rays);
+    CHECK(families.counts().outer * 2 <= found.rays);
 }
 
+// The surfaces of the built-in scenes, then random ones.
 inline void check_surfaces(std::size_t random_scenes, std::size_t rays_each) {
     Random random(20060101);
-    for (int kind = 0; kind < 4; ++kind) {
-        check_surface(surface_of(static_cast<scene::SurfaceKind>(kind)), rays_each, random);
+    for (const char* name : {"terrain", "hyperterrain", "planet", "isosurface"}) {
+        const auto builtin = scene::find_builtin(name);
+        REQUIRE(builtin);
+        check_surface(scene::read_scene(builtin->text, name).surface, rays_each, random);
     }
     for (std::size_t i = 0; i < random_scenes; ++i) check_surface(random_surface(random), rays_each, random);
 }

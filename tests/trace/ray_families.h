@@ -8,6 +8,7 @@
 
 #include "src/trace/fast_tracer.h"
 #include "src/trace/field.h"
+#include "src/trace/shadow_ray.h"
 #include "tests/oracles/ray_oracle.h"
 
 namespace strata::trace_test {
@@ -70,24 +71,34 @@ inline oracle::Shape shape_of(const scene::Surface& s) {
     return shape;
 }
 
-// Makes rays in four equal families: seen from outside, from inside the slab, grazing, and next to a silhouette.
+// How many rays of each family were made; one that a surface does not yield falls back on an outer one.
+struct FamilyCounts {
+    std::size_t outer = 0, inner = 0, grazing = 0, silhouette = 0, shadow = 0;
+};
+
+// Makes rays of five families: seen from outside, from inside the slab, grazing, next to a silhouette, and from a hit
+// towards a light (with a tolerance that does not begin at 0).
 class RayFamilies {
   public:
     RayFamilies(const trace::Field& field, const trace::FastTracer& tracer, double pixel_angle)
         : field_(field), tracer_(tracer), delta_slope_(0.1 * pixel_angle) {}
 
-    std::vector<trace::Ray> make(Random& random, std::size_t count) const {
+    std::vector<trace::Ray> make(Random& random, std::size_t count) {
         std::vector<trace::Ray> rays;
         while (rays.size() < count) {
             const trace::Ray seen = outer_ray(random);
-            const trace::Ray inner = make_ray(near_point(random), unit_vector(random));
             rays.push_back(seen);
-            rays.push_back(inner);
+            rays.push_back(make_ray(near_point(random), unit_vector(random)));
             rays.push_back(grazing_ray(random, seen));
             rays.push_back(silhouette_ray(random, seen));
+            rays.push_back(shadow_ray(random, seen));
+            ++counts_.inner;
         }
+        counts_.outer = rays.size() - counts_.inner - counts_.grazing - counts_.silhouette - counts_.shadow;
         return rays;
     }
+
+    const FamilyCounts& counts() const { return counts_; }
 
   private:
     trace::Ray make_ray(const glm::dvec3& origin, const glm::dvec3& direction) const {
@@ -124,22 +135,24 @@ class RayFamilies {
     }
 
     // Along the tangent plane of a point of the surface, just above or below it.
-    trace::Ray grazing_ray(Random& random, const trace::Ray& seen) const {
+    trace::Ray grazing_ray(Random& random, const trace::Ray& seen) {
         const trace::Hit found = hit(seen);
         if (found.state != trace::HitState::hit) return outer_ray(random);
         const glm::dvec3 x = seen.origin + found.s * seen.direction;
         const glm::dvec3 normal = glm::normalize(field_.gradient(x));
         const glm::dvec3 tangent = glm::normalize(glm::cross(normal, unit_vector(random)));
+        ++counts_.grazing;
         const double lift = log_uniform(random, 1e-7, 1e-2) * (random() % 3 == 0 ? -1.0 : 1.0);
         return make_ray(x + lift * normal - uniform(random, 0.0, 5.0) * tangent, tangent);
     }
 
     // Between a ray that hits and one that misses, halved until they are a small fraction of a pixel apart.
-    trace::Ray silhouette_ray(Random& random, const trace::Ray& seen) const {
+    trace::Ray silhouette_ray(Random& random, const trace::Ray& seen) {
         trace::Ray a = seen, b = seen;
         b.direction = glm::normalize(seen.direction + 0.5 * unit_vector(random));
         const bool a_hits = hit(a).state == trace::HitState::hit;
         if (a_hits == (hit(b).state == trace::HitState::hit)) return grazing_ray(random, seen);
+        ++counts_.silhouette;
         const int halvings = 4 + static_cast<int>(random() % 20);
         for (int i = 0; i < halvings; ++i) {
             trace::Ray middle = seen;
@@ -149,9 +162,19 @@ class RayFamilies {
         return random() % 2 == 0 ? a : b;
     }
 
+    trace::Ray shadow_ray(Random& random, const trace::Ray& seen) {
+        const trace::Hit found = hit(seen);
+        if (found.state != trace::HitState::hit || found.on_bound) return outer_ray(random);
+        const glm::dvec3 normal = glm::normalize(field_.gradient(seen.origin + found.s * seen.direction));
+        const glm::dvec3 light = unit_vector(random);
+        ++counts_.shadow;
+        return trace::shadow_ray(seen, found, normal, glm::dot(light, normal) > 0.0 ? light : -light);
+    }
+
     const trace::Field& field_;
     const trace::FastTracer& tracer_;
     double delta_slope_;
+    FamilyCounts counts_;
 };
 
 // Violations of the two promises of a tracer, by the oracle's judgement.

@@ -1,5 +1,18 @@
+#include "noise/simd_target.h"
 #include "tests/trace/first_hit_check.h"
 
+using namespace strata;
+
 TEST_CASE("no ray passes over more than delta of the surface or reports a hit without one (2,000 rays a scene)") {
-    strata::trace_test::check_surfaces(20, 2000);
+    trace_test::check_surfaces(20, 2000);
+}
+
+TEST_CASE("both promises hold on every SIMD target") {
+    const std::vector<std::string> targets = noise::simd_targets();
+    for (const std::string& target : targets) {
+        CAPTURE(target);
+        REQUIRE(noise::pin_simd_target(target));
+        trace_test::check_surfaces(8, 500);
+    }
+    noise::pin_simd_target(targets.front());
 }
