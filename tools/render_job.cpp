@@ -107,7 +107,9 @@ std::vector<fs::path> output_paths(const RenderRequest& request, const Job& job)
 void check_statistics(const Job& job) {
     if (job.statistics.empty()) return;
     image::check_replaceable(job.statistics);
-    const auto is_statistics = [&](const fs::path& path) { return same_file(path, job.statistics); };
+    const auto is_statistics = [&](const fs::path& path) {
+        return same_file(path, job.statistics) || same_file(partial_path(path), job.statistics);
+    };
     if (is_statistics(job.loaded.source) || std::ranges::any_of(job.outputs, is_statistics)) {
         throw UsageError(fmt::format("--stats {}: allowed: a file of its own", job.statistics.string()));
     }
