@@ -44,8 +44,8 @@ void noise_hessian(const LatticeKey& key, const Points<3>& points, std::span<flo
                    const GradientSpans<3>& gradient, const HessianSpans<3>& hessian);
 
 // fBm at origin + offset, both in the units that octave frequencies refer to. The origin is split per octave in double;
-// |frequency * offset| must stay below 2^23 cells, and the position is off by 2^-24 (3 |frequency * offset| + 2) cells at
-// most on each axis. A sub-span of octaves gives their part of the sum. (The tracer, which needs each octave's slope
+// |frequency * offset| must stay below 2^23 cells, and the position is off by 2^-24 (3 |frequency * offset| + 2) cells
+// at most on each axis. A sub-span of octaves gives their part of the sum. (The tracer, which needs each octave's slope
 // along its ray and the amplitude that remains, evaluates octaves itself: trace/octave-inl.h on noise-inl.h.)
 void fbm_value(std::span<const Octave> octaves, const std::array<double, 2>& origin,
                const std::array<std::span<const float>, 2>& offset, std::span<float> value);
