@@ -86,7 +86,7 @@ int render_command(const RenderRequest& request) {
     }
     const image::Picture picture = to_picture(std::move(result.film), job.loaded.scene.film);
     bool all_written = write_outputs(job, picture, result.cancelled);
-    const RunStatistics statistics = collect(result, job.threads, job.loaded.name);
+    const RunStatistics statistics = collect(result, job.loaded.name);
     if (!job.statistics.empty()) all_written &= succeeds([&] { write_statistics(job.statistics, statistics); });
     if (!job.quiet) print_out(summary(statistics));
     if (!all_written) return kExitRuntime;

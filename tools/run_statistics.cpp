@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "noise/simd_target.h"
 #include "src/image/output_file.h"
@@ -31,12 +30,11 @@ std::string scaled(double count) {
 
 }  // namespace
 
-RunStatistics collect(const render::RenderResult& result, int threads, const std::string& scene) {
-    const int all = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+RunStatistics collect(const render::RenderResult& result, const std::string& scene) {
     return {.counters = result.counters,
             .seconds = result.seconds,
             .cpu_seconds = result.cpu_seconds,
-            .threads = threads > 0 ? threads : all,
+            .threads = result.threads,
             .simd_target = noise::simd_target(),
             .peak_memory_bytes = peak_memory(),
             .scene = scene};

@@ -19,7 +19,7 @@ struct RunStatistics {
     std::string scene;
 };
 
-RunStatistics collect(const render::RenderResult& result, int threads, const std::string& scene);
+RunStatistics collect(const render::RenderResult& result, const std::string& scene);
 
 // A few lines for people.
 std::string summary(const RunStatistics& statistics);

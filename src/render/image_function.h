@@ -11,7 +11,7 @@ namespace strata::render {
 // Work done, exact and independent of threads and tiles; but for executed_lanes, which also counts SIMD lanes that idle
 // and so depends on how rays came to share packets.
 struct Counters {
-    std::uint64_t rays = 0;  // image-function samples evaluated
+    std::uint64_t rays = 0;  // image-function samples evaluated; counted by the renderer, all else by image functions
     std::uint64_t shadow_rays = 0;
     std::uint64_t hits = 0;
     std::uint64_t unresolved_rays = 0;

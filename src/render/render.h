@@ -19,6 +19,7 @@ struct RenderOptions {
 struct RenderResult {
     Film film;
     Counters counters;
+    int threads = 0;         // used
     double seconds = 0;      // by the clock
     double cpu_seconds = 0;  // of all threads: sampling, evaluating, filtering
     bool cancelled = false;  // some pixels of the film are not finished

@@ -40,7 +40,7 @@ bool RenderContext::evaluate(Worker& worker, std::span<glm::vec3> radiance) cons
         if (cancelled()) return false;
         const std::size_t size = std::min(kBatchSamples, count - first);
         image.evaluate(worker.samples.batch(first, size), radiance.subspan(first, size), worker.counters);
-        worker.rays += size;
+        worker.counters.rays += size;
     }
     return true;
 }
@@ -50,13 +50,11 @@ std::size_t RenderContext::owners_a_batch() const {
 }
 
 void RenderContext::finish(RenderResult& result) const {
-    std::uint64_t rays = 0;
     for (const Worker& worker : workers_) {
         result.counters += worker.counters;
-        rays += worker.rays;
         result.cpu_seconds += worker.cpu_seconds;
     }
-    result.counters.rays = rays;
+    result.threads = seam_.threads();
     result.seconds = progress.seconds();
     result.cancelled = !result.film.complete();
 }

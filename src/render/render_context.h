@@ -20,7 +20,6 @@ struct alignas(64) Worker {
     std::vector<glm::ivec2> owners;  // pixels or cells of `samples`
     std::vector<glm::vec3> radiance;
     Counters counters;
-    std::uint64_t rays = 0;  // samples evaluated, whatever the image function counts
     double cpu_seconds = 0;
 };
 

@@ -155,7 +155,6 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
 
     if (scene_.sun.shadows && scene_.sun.intensity > 0.0) shadow(chunk, counters);
     for (const Lit& lit : chunk.lit) radiance[lit.sample] = shade_hit(lit);
-    counters.rays += count;
     counters.hits += chunk.lit.size();
 }
 
