@@ -80,7 +80,7 @@ void check_within_reach(const trace::Field& field, double distance) {
 
 // Where a spinning surface stands at a time given by the user.
 glm::dmat3 orientation_at(const trace::Placement& placement, double t) {
-    const glm::dmat3 orientation = placement.orientation(t);
+    glm::dmat3 orientation = placement.orientation(t);
     if (std::isfinite(orientation[0][0])) return orientation;
     throw BadLine{"a time at which the surface's turns can be counted in double"};
 }
