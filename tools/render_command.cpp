@@ -5,16 +5,14 @@
 #include <filesystem>
 #include <memory>
 #include <new>
-#include <utility>
 
 #include "src/image/write.h"
 #include "src/render/cancel.h"
-#include "src/render/make_image.h"
 #include "src/render/progress_printer.h"
-#include "src/render/render.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
 #include "tools/render_job.h"
+#include "tools/render_picture.h"
 #include "tools/run_statistics.h"
 #include "tools/standard_output.h"
 
@@ -23,15 +21,6 @@ namespace strata::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Takes the film, so that its memory is free again for the encoders.
-image::Picture to_picture(render::Film film, const scene::Film& frame) {
-    const render::Window& w = film.window();
-    image::Picture picture{frame.width, frame.height, w.x0, w.y0, w.x1, w.y1, {}};
-    picture.rgb.reserve(3 * film.pixels().size());
-    for (const glm::vec3& pixel : film.pixels()) picture.rgb.insert(picture.rgb.end(), {pixel.r, pixel.g, pixel.b});
-    return picture;
-}
 
 // Runs write(); a failure is told and does not keep other files from being written.
 template <class Write>
@@ -71,21 +60,19 @@ int render_command(const RenderRequest& request) {
     static render::CancelToken cancel;
     render::cancel_on_signals(cancel);
     const Job job = prepare(request);
-    const auto image_function = render::make_image(job.loaded.scene, parse_tracer(job.tracer));
-    const render::Estimator estimator(render::estimator_settings(job.loaded.scene));
     render::ProgressPrinter progress(job.quiet);
-    render::RenderResult result = render::render(
-        *image_function, estimator, job.window,
+    const RenderedPicture rendered = render_picture(
+        job.loaded.scene, job.window, parse_tracer(job.tracer),
         {.threads = job.threads, .tile = job.tile, .on_progress = progress.callback(), .cancel = &cancel});
     progress.clear();
+    const render::RenderResult& result = rendered.result;
     warn_of_unresolved(job, result.counters.unresolved_rays);
 
     if (result.cancelled && !job.quiet) {
-        print_out(fmt::format("stopped  with {} of {} pixels finished\n", result.film.finished_count(),
-                              result.film.pixels().size()));
+        print_out(fmt::format("stopped  with {} of {} pixels finished\n", rendered.finished_pixels,
+                              rendered.picture.pixels()));
     }
-    const image::Picture picture = to_picture(std::move(result.film), job.loaded.scene.film);
-    bool all_written = write_outputs(job, picture, result.cancelled);
+    bool all_written = write_outputs(job, rendered.picture, result.cancelled);
     const RunStatistics statistics = collect(result, job.loaded.name);
     if (!job.statistics.empty()) all_written &= succeeds([&] { write_statistics(job.statistics, statistics); });
     if (!job.quiet) print_out(summary(statistics));

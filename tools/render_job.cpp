@@ -11,9 +11,8 @@
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
 #include "src/image/read.h"
-#include "src/scene/enum_names.h"
-#include "src/scene/printer.h"
 #include "tools/errors.h"
+#include "tools/picture_metadata.h"
 #include "tools/run_statistics.h"
 #include "tools/standard_output.h"
 
@@ -115,33 +114,6 @@ void check_statistics(const Job& job) {
     }
 }
 
-std::string filter_text(const scene::Sampling& sampling) {
-    if (sampling.estimator == scene::EstimatorKind::none) return "none";
-    if (sampling.estimator == scene::EstimatorKind::super) return "box";
-    return fmt::format("B-spline of order {}", sampling.m);
-}
-
-// How the picture is made: nothing here differs between equal renders.
-image::Metadata describe(const Job& job, const std::string& format) {
-    const scene::Sampling& sampling = job.loaded.scene.sampling;
-    const scene::Film& film = job.loaded.scene.film;
-    const render::Window& w = job.window;
-    image::Metadata metadata;
-    metadata.set("strata:version", STRATA_VERSION);
-    metadata.set(image::kSceneKey, scene::print_scene(job.loaded.scene));
-    if (w != render::Window{0, 0, film.width, film.height}) {
-        metadata.set("strata:crop", fmt::format("{},{},{},{}", w.x0, w.y0, w.x1, w.y1));
-    }
-    metadata.set("strata:tracer", job.tracer);
-    metadata.set("strata:format", format);
-    metadata.set("strata:simd_target", noise::simd_target());
-    metadata.set("strata:estimator", scene::name_of(sampling.estimator));
-    metadata.set("strata:samples", sampling.estimator == scene::EstimatorKind::none ? 1 : sampling.N * sampling.N);
-    metadata.set("strata:filter", filter_text(sampling));
-    metadata.set("strata:seed", sampling.seed);
-    return metadata;
-}
-
 }  // namespace
 
 fs::path partial_path(fs::path path) {
@@ -165,7 +137,7 @@ Job prepare(const RenderRequest& request) {
     job.outputs = output_paths(request, job);
     job.statistics = request.statistics;
     check_statistics(job);
-    job.metadata = describe(job, format);
+    job.metadata = picture_metadata(job.loaded.scene, job.window, job.tracer, format);
     return job;
 }
 

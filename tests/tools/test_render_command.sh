@@ -1,44 +1,10 @@
 #!/usr/bin/env bash
-# What the strata program promises on its command line, shown with tiny pictures: test_cli.sh PROGRAM. Starting the
-# program takes longer than what it does here, so groups of checks run at once, each in a folder of its own.
+# What the strata program promises on its command line, shown with tiny pictures.
 set -u
 
-strata=$(readlink -f -- "${1:?usage: test_cli.sh PROGRAM}")
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf -- "$scratch"' EXIT
-results=$scratch/results
+# shellcheck source=tests/tools/cli_checks.sh
+. "${BASH_SOURCE[0]%/*}/cli_checks.sh"
 
-expect() { # sentence actual expected
-    if [[ $2 == "$3" ]]; then
-        echo passed >>"$results"
-    else
-        printf 'FAILED: %s\n  expected: %s\n  got:      %s\n' "$1" "$3" "${2:0:400}" | tee -a "$results"
-    fi
-}
-
-expect_match() { # sentence actual pattern
-    # shellcheck disable=SC2053 # a pattern is meant
-    if [[ $2 == $3 ]]; then expect "$1" yes yes; else expect "$1" "$2" "$3"; fi
-}
-
-expect_same_file() { # sentence file file
-    if cmp -s -- "$2" "$3"; then expect "$1" same same; else expect "$1" "$(cmp -- "$2" "$3" 2>&1)" same; fi
-}
-
-run() { # arguments...: sets output (of both streams) and status
-    output=$("$strata" "$@" 2>&1 </dev/null)
-    status=$?
-}
-
-# Refused before anything is rendered: the exit code, words of the message, and nothing written.
-refuses() { # sentence status pattern arguments...
-    local sentence=$1 expected=$2 pattern=$3
-    shift 3
-    run "$@"
-    expect_match "$sentence" "$status: $output" "$expected: $pattern"
-}
-
-tiny=(--size 16x9 -N 2 --quiet)
 number='-?[0-9]+(\.[0-9]+)?(e[+-][0-9]+)?'
 vector="\[$number,$number,$number\]"
 
@@ -278,13 +244,5 @@ check_failing_writes() {
     expect_match 'there is help for each command' "$status: $output" '0: *--sample*'
 }
 
-groups=(check_unknown_words check_wrong_values check_scene_files check_outputs check_rendering_again check_probes
-    check_samples check_signals check_failing_writes)
-for group in "${groups[@]}"; do
-    (mkdir "$scratch/$group" && cd "$scratch/$group" && "$group") &
-    while (($(jobs -rp | wc -l) >= $(nproc))); do wait -n; done
-done
-wait
-passed=$(grep -c '^passed' "$results") failed=$(grep -c '^FAILED' "$results")
-echo "$passed passed, $failed failed"
-((failed == 0 && passed > 0))
+run_groups check_unknown_words check_wrong_values check_scene_files check_outputs check_rendering_again \
+    check_probes check_samples check_signals check_failing_writes

@@ -1,0 +1,53 @@
+# shellcheck shell=bash
+# How the program's command line is tested; sourced by the scripts beside it with the program as argument. Starting the
+# program takes longer than what it does here, so groups of checks run at once, each in a folder of its own.
+
+strata=$(readlink -f -- "${1:?usage: ${0##*/} PROGRAM}")
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf -- "$scratch"' EXIT
+results=$scratch/results
+
+expect() { # sentence actual expected
+    if [[ $2 == "$3" ]]; then
+        echo passed >>"$results"
+    else
+        printf 'FAILED: %s\n  expected: %s\n  got:      %s\n' "$1" "$3" "${2:0:400}" | tee -a "$results"
+    fi
+}
+
+expect_match() { # sentence actual pattern
+    # shellcheck disable=SC2053 # a pattern is meant
+    if [[ $2 == $3 ]]; then expect "$1" yes yes; else expect "$1" "$2" "$3"; fi
+}
+
+expect_same_file() { # sentence file file
+    if cmp -s -- "$2" "$3"; then expect "$1" same same; else expect "$1" "$(cmp -- "$2" "$3" 2>&1)" same; fi
+}
+
+run() { # arguments...: sets output (of both streams) and status
+    output=$("$strata" "$@" 2>&1 </dev/null)
+    status=$?
+}
+
+# Refused before anything is rendered: the exit code, words of the message, and nothing written.
+refuses() { # sentence status pattern arguments...
+    local sentence=$1 expected=$2 pattern=$3
+    shift 3
+    run "$@"
+    expect_match "$sentence" "$status: $output" "$expected: $pattern"
+}
+
+tiny=(--size 16x9 -N 2 --quiet)
+
+# Runs each group, a function, in a folder named like it, and sums up: the script's last command.
+run_groups() { # function...
+    local group passed failed
+    for group in "$@"; do
+        (mkdir "$scratch/$group" && cd "$scratch/$group" && "$group") &
+        while (($(jobs -rp | wc -l) >= $(nproc))); do wait -n; done
+    done
+    wait
+    passed=$(grep -c '^passed' "$results") failed=$(grep -c '^FAILED' "$results")
+    echo "$passed passed, $failed failed"
+    ((failed == 0 && passed > 0))
+}

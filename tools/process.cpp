@@ -1,0 +1,118 @@
+#include "tools/process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+extern char** environ;
+
+namespace strata::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostWords = 4000;  // of a failed program's output: its end says why
+
+[[noreturn]] void fail(const fs::path& program, const std::string& why) {
+    throw ProcessError(fmt::format("{}: {}", program.filename().string(), why));
+}
+
+// A pipe for the child's output; this end closes itself.
+class OutputPipe {
+  public:
+    explicit OutputPipe(const fs::path& program) {
+        if (::pipe2(ends_.data(), O_CLOEXEC) != 0) fail(program, std::strerror(errno));
+    }
+    ~OutputPipe() {
+        close_writing();
+        ::close(ends_[0]);
+    }
+    OutputPipe(const OutputPipe&) = delete;
+    OutputPipe& operator=(const OutputPipe&) = delete;
+
+    int writing_end() const { return ends_[1]; }
+
+    void close_writing() {
+        if (ends_[1] >= 0) ::close(ends_[1]);
+        ends_[1] = -1;
+    }
+
+    // Until the child has closed its end: its last words.
+    std::string read_all() const {
+        std::string text;
+        std::array<char, 4096> buffer;
+        for (;;) {
+            const ssize_t count = ::read(ends_[0], buffer.data(), buffer.size());
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) return text;
+            text.append(buffer.data(), static_cast<std::size_t>(count));
+            if (text.size() > 2 * kMostWords) text.erase(0, text.size() - kMostWords);
+        }
+    }
+
+  private:
+    std::array<int, 2> ends_{-1, -1};
+};
+
+pid_t start(const fs::path& program, const std::vector<std::string>& arguments, const OutputPipe& output) {
+    std::vector<std::string> words{program.string()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, output.writing_end(), STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, output.writing_end(), STDERR_FILENO);
+    pid_t child = 0;
+    const int error = ::posix_spawn(&child, program.c_str(), &actions, nullptr, pointers.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error != 0) fail(program, std::strerror(error));
+    return child;
+}
+
+int wait_for(pid_t child) {
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+}
+
+}  // namespace
+
+fs::path find_program(const std::string& name, const std::string& debian_package) {
+    const char* path = std::getenv("PATH");
+    std::string_view folders = path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin";
+    while (!folders.empty()) {
+        const std::size_t end = std::min(folders.find(':'), folders.size());
+        const fs::path candidate = fs::path(folders.substr(0, end)) / name;
+        if (::access(candidate.c_str(), X_OK) == 0 && fs::is_regular_file(candidate)) return candidate;
+        folders.remove_prefix(std::min(end + 1, folders.size()));
+    }
+    throw ProcessError(fmt::format("{} is not installed: Debian has it in the package {}", name, debian_package));
+}
+
+void run_program(const fs::path& program, const std::vector<std::string>& arguments) {
+    OutputPipe output(program);
+    const pid_t child = start(program, arguments, output);
+    output.close_writing();
+    const std::string words = output.read_all();
+    const int status = wait_for(child);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+    const std::string how = WIFSIGNALED(status) ? fmt::format("ended by signal {}", WTERMSIG(status))
+                                                : fmt::format("failed with code {}", WEXITSTATUS(status));
+    fail(program, words.empty() ? how : fmt::format("{}:\n{}", how, words));
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,25 @@
+// Other programs that strata hands work to: gnuplot for plots, ffmpeg for films.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace strata::tools {
+
+// A program that is not there, could not be started or failed. what() is for the user, the program's own words
+// included.
+class ProcessError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+// The program's path by PATH. Throws ProcessError, naming the Debian package that has it, when it is not there.
+std::filesystem::path find_program(const std::string& name, const std::string& debian_package);
+
+// Runs a program to its end, its standard input empty. Its output is caught and shown only when it fails: throws
+// ProcessError then, and when it could not be started. SIGINT and SIGTERM reach it as they reach this process.
+void run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments);
+
+}  // namespace strata::tools

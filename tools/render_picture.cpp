@@ -1,0 +1,33 @@
+#include "tools/render_picture.h"
+
+#include <utility>
+
+#include "src/render/make_image.h"
+
+namespace strata::tools {
+
+namespace {
+
+// Takes the film, so that its memory is free again for the encoders.
+image::Picture to_picture(render::Film film, const scene::Film& frame) {
+    const render::Window& w = film.window();
+    image::Picture picture{frame.width, frame.height, w.x0, w.y0, w.x1, w.y1, {}};
+    picture.rgb.reserve(3 * film.pixels().size());
+    for (const glm::vec3& pixel : film.pixels()) picture.rgb.insert(picture.rgb.end(), {pixel.r, pixel.g, pixel.b});
+    return picture;
+}
+
+}  // namespace
+
+RenderedPicture render_picture(const scene::Scene& scene, const render::Window& window, render::Tracer tracer,
+                               const render::RenderOptions& options) {
+    const auto image_function = render::make_image(scene, tracer);
+    const render::Estimator estimator(render::estimator_settings(scene));
+    RenderedPicture rendered;
+    rendered.result = render::render(*image_function, estimator, window, options);
+    rendered.finished_pixels = rendered.result.film.finished_count();
+    rendered.picture = to_picture(std::exchange(rendered.result.film, {}), scene.film);
+    return rendered;
+}
+
+}  // namespace strata::tools
