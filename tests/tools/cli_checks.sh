@@ -37,8 +37,6 @@ refuses() { # sentence status pattern arguments...
     expect_match "$sentence" "$status: $output" "$expected: $pattern"
 }
 
-tiny=(--size 16x9 -N 2 --quiet)
-
 # Runs each group, a function, in a folder named like it, and sums up: the script's last command.
 run_groups() { # function...
     local group passed failed

@@ -5,6 +5,7 @@ set -u
 # shellcheck source=tests/tools/cli_checks.sh
 . "${BASH_SOURCE[0]%/*}/cli_checks.sh"
 
+tiny=(--size 16x9 -N 2 --quiet)
 number='-?[0-9]+(\.[0-9]+)?(e[+-][0-9]+)?'
 vector="\[$number,$number,$number\]"
 
