@@ -133,7 +133,22 @@ bool write_strips(OIIO::ImageOutput& output, const Picture& picture, OIIO::TypeD
     return true;
 }
 
-bool write_pixels(OIIO::ImageOutput& output, Format format, const Picture& picture, const WriteOptions& options) {
+// The nearest code of [0, max(Code)] to values that are codes of [0,1].
+template <class Code>
+std::vector<Code> round_codes(std::span<const float> values) {
+    constexpr double kTop = std::numeric_limits<Code>::max();
+    std::vector<Code> codes;
+    codes.reserve(values.size());
+    for (const float v : values) codes.push_back(static_cast<Code>(std::lround(std::clamp<double>(v, 0, 1) * kTop)));
+    return codes;
+}
+
+bool write_codes(OIIO::ImageOutput& output, Format format, const Picture& codes) {
+    if (format == Format::tiff) return write_strips(output, codes, OIIO::TypeDesc::UINT16, round_codes<std::uint16_t>);
+    return write_strips(output, codes, OIIO::TypeDesc::UINT8, round_codes<std::uint8_t>);
+}
+
+bool write_linear(OIIO::ImageOutput& output, Format format, const Picture& picture, const WriteOptions& options) {
     const double exposure = options.exposure;
     switch (format) {
         case Format::exr:
@@ -151,10 +166,11 @@ bool write_pixels(OIIO::ImageOutput& output, Format format, const Picture& pictu
                         [&](std::span<const float> v) { return quantise<std::uint8_t>(v, exposure); });
 }
 
-}  // namespace
-
-std::vector<unsigned char> encode(const std::filesystem::path& path, const Picture& picture, const Metadata& metadata,
-                                  const WriteOptions& options) {
+// write_pixels(output, format) gives OpenImageIO the picture.
+template <class WritePixels>
+std::vector<unsigned char> encode_with(const std::filesystem::path& path, const Picture& picture,
+                                       const Metadata& metadata, const WriteOptions& options,
+                                       const WritePixels& write_pixels) {
     const Format format = format_of(path);
     check_shape(path, picture);
     check_finite(path, picture);
@@ -170,9 +186,25 @@ std::vector<unsigned char> encode(const std::filesystem::path& path, const Pictu
     if (!output) fail(path, OIIO::geterror());
     if (!output->set_ioproxy(&memory)) fail(path, "OpenImageIO cannot encode this format in memory");
 
-    if (!output->open(name_of(format), spec) || !write_pixels(*output, format, picture, options) || !output->close())
+    if (!output->open(name_of(format), spec) || !write_pixels(*output, format) || !output->close())
         fail(path, output->geterror());
     return bytes;
+}
+
+}  // namespace
+
+std::vector<unsigned char> encode(const std::filesystem::path& path, const Picture& picture, const Metadata& metadata,
+                                  const WriteOptions& options) {
+    return encode_with(path, picture, metadata, options, [&](OIIO::ImageOutput& output, Format format) {
+        return write_linear(output, format, picture, options);
+    });
+}
+
+std::vector<unsigned char> encode_codes(const std::filesystem::path& path, const Picture& codes,
+                                        const Metadata& metadata) {
+    if (format_of(path) == Format::exr) fail(path, "an EXR holds linear radiance, no sRGB codes");
+    return encode_with(path, codes, metadata, {},
+                       [&](OIIO::ImageOutput& output, Format format) { return write_codes(output, format, codes); });
 }
 
 }  // namespace strata::image

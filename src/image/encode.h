@@ -27,4 +27,9 @@ struct WriteOptions {
 std::vector<unsigned char> encode(const std::filesystem::path& path, const Picture& picture, const Metadata& metadata,
                                   const WriteOptions& options);
 
+// The same for a picture whose values are sRGB codes in [0,1] already: rounded to the format's codes, nothing else.
+// Throws ImageError for EXR too.
+std::vector<unsigned char> encode_codes(const std::filesystem::path& path, const Picture& codes,
+                                        const Metadata& metadata);
+
 }  // namespace strata::image
