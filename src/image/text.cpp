@@ -1,17 +1,14 @@
 #include "src/image/text.h"
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <system_error>
 
-#include "src/image/canvas_buffer.h"
+#include "src/image/font.h"
 #include "src/image/image_error.h"
-#include "src/image/library.h"
 
 namespace strata::image {
 namespace {
@@ -31,10 +28,12 @@ fs::path font_file(Weight weight) {
     return find_font(candidates);
 }
 
-const std::string& font_of(Weight weight) {
-    static const std::string regular = font_file(Weight::regular);
-    static const std::string bold = font_file(Weight::bold);
-    return weight == Weight::bold ? bold : regular;
+Font& font_of(const TextStyle& style) {
+    // FreeType's faces are for one thread each.
+    thread_local Font regular(font_file(Weight::regular)), bold(font_file(Weight::bold));
+    Font& font = style.weight == Weight::bold ? bold : regular;
+    font.set_size(style.size_px);
+    return font;
 }
 
 // DejaVu Sans: 0.928 of the size above the baseline, 0.236 below.
@@ -53,15 +52,8 @@ std::vector<std::string_view> lines_of(std::string_view text) {
     }
 }
 
-OIIO::string_view view(std::string_view text) { return {text.data(), text.size()}; }
-
 int line_width(std::string_view line, const TextStyle& style) {
-    if (line.empty()) return 0;
-    configure_library();
-    const OIIO::ROI roi = OIIO::ImageBufAlgo::text_size(view(line), style.size_px, font_of(style.weight));
-    if (!roi.defined()) throw ImageError(fmt::format("cannot measure text: {}", OIIO::geterror()));
-    // Blanks alone have no extent that counts.
-    return std::max(0, roi.xend - roi.xbegin);
+    return static_cast<int>(std::ceil(font_of(style).advance_px(line)));
 }
 
 // Where UTF-8 characters start, and the end.
@@ -117,12 +109,13 @@ fs::path find_font(std::span<const fs::path> candidates) {
 }
 
 void check_fonts() {
-    font_of(Weight::regular);
-    font_of(Weight::bold);
+    font_file(Weight::regular);
+    font_file(Weight::bold);
 }
 
 int line_height(const TextStyle& style) {
-    return ascent(style) + static_cast<int>(std::ceil(kDescent * style.size_px));
+    constexpr int kHinting = 1;  // fitting strokes to rows lowers some
+    return ascent(style) + static_cast<int>(std::ceil(kDescent * style.size_px)) + kHinting;
 }
 
 int line_count(std::string_view text) { return static_cast<int>(std::ranges::count(text, '\n')) + 1; }
@@ -134,18 +127,12 @@ int text_width(std::string_view text, const TextStyle& style) {
 }
 
 int draw_text(Canvas& canvas, int x, int y, std::string_view text, const TextStyle& style) {
-    OIIO::ImageBuf target = buffer_of(canvas);
-    const std::array<float, 3> colour{style.colour.r, style.colour.g, style.colour.b};
     const int height = line_height(style);
     int top = y;
     for (const std::string_view line : lines_of(text)) {
         const int width = style.anchor == Anchor::left ? 0 : line_width(line, style);
         const int left = style.anchor == Anchor::left ? x : style.anchor == Anchor::right ? x - width : x - width / 2;
-        if (!line.empty()) {
-            require_drawn(OIIO::ImageBufAlgo::render_text(target, left, top + ascent(style), view(line), style.size_px,
-                                                          font_of(style.weight), colour),
-                          target);
-        }
+        font_of(style).draw(canvas, left, top + ascent(style), line, style.colour);
         top += height;
     }
     return top - y;

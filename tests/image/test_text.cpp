@@ -3,9 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <codecvt>
+#include <locale>
 #include <random>
 #include <sstream>
 
+#include "src/image/font.h"
 #include "src/image/image_error.h"
 
 using namespace strata::image;
@@ -115,6 +118,33 @@ TEST_CASE("an elided text fits and keeps both its ends; one that fits is as it w
         CHECK(shorter.find("…") != std::string::npos);
         CHECK(shorter.front() == 's');
     }
+}
+
+TEST_CASE("UTF-8 is decoded: every code point comes back, what is none is replaced a byte at a time") {
+    for (char32_t code = 0x20; code <= 0x10ffff; code += code < 0x3000 ? 1 : 77) {
+        if (code >= 0xd800 && code < 0xe000) continue;
+        const std::string bytes = std::wstring_convert<std::codecvt_utf8<char32_t>, char32_t>().to_bytes(code);
+        const std::string text = bytes + "z";
+        std::string_view rest = text;
+        if (take_code_point(rest) != code || rest != "z") FAIL("code point " << static_cast<unsigned>(code));
+    }
+    for (const std::string bad : {"\x80", "\xff", "\xc0\x80", "\xc3", "\xe2\x89", "\xed\xa0\x80", "\xf5\x80\x80\x80",
+                                  "\xf4\x90\x80\x80", "\xe0\x80\x80", "\x07"}) {
+        std::string_view rest = bad;
+        CHECK(take_code_point(rest) == 0xfffd);
+        CHECK(rest.size() == bad.size() - 1);
+    }
+}
+
+TEST_CASE("characters beyond ASCII have glyphs of their own") {
+    const auto drawn = [](std::string_view text) {
+        Canvas canvas = paper();
+        draw_text(canvas, 10, 10, text);
+        return canvas.rgb;
+    };
+    const char* texts[] = {"²", "2", "×", "≤", "≥", "…", "°", "μ", "½", "ü", "\xff"};
+    for (const char* a : texts)
+        for (const char* b : texts) CHECK((drawn(a) == drawn(b)) == (a == b));
 }
 
 TEST_CASE("a missing font is an error that names the package") {
