@@ -96,9 +96,9 @@ std::string shown_name(const KeyOption& option) {
 
 }  // namespace
 
-void SceneArgument::add_to(CLI::App& command) {
+void SceneArgument::add_to(CLI::App& command, const char* name) {
     command
-        .add_option("SCENE", scene_, "A scene file, a built-in scene (`strata scenes`), or a picture that strata wrote")
+        .add_option(name, scene_, "A scene file, a built-in scene (`strata scenes`), or a picture that strata wrote")
         ->capture_default_str();
     command
         .add_option("--set", sets_,

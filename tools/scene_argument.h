@@ -23,8 +23,8 @@ struct LoadedScene {
 
 class SceneArgument {
   public:
-    // Adds SCENE, --set and the options that stand for scene keys.
-    void add_to(CLI::App& command);
+    // Adds SCENE, --set and the options that stand for scene keys. A name such as "--scene" makes SCENE an option.
+    void add_to(CLI::App& command, const char* name = "SCENE");
 
     // A path, a built-in scene's name, or a picture that strata wrote; overrides applied, validated. Throws SceneError
     // or UsageError.

@@ -19,6 +19,9 @@ constexpr const char* kMap = "inferno";
 constexpr int kBarHeight = 14;
 constexpr int kTickHeight = 4;
 
+// Where a distance, in parts of the top, lies on the scale.
+double place_of(double part) { return std::sqrt(std::min(1.0, part)); }
+
 // Fractions [0,1] of the scale, one a pixel, in its colours.
 Canvas colours_of(std::vector<float>& fractions, int width, int height) {
     Canvas canvas = make_canvas(width, height, {});
@@ -41,7 +44,7 @@ Canvas difference(const Picture& picture, const Picture& reference, double top) 
             square += d * d / 3;
         }
         if (std::isfinite(square))
-            fractions[i] = static_cast<float>(std::min(1.0, std::sqrt(square) / top));
+            fractions[i] = static_cast<float>(place_of(std::sqrt(square) / top));
         else
             not_finite.push_back(i);
     }
@@ -64,8 +67,11 @@ double scale_top(double value) {
 
 Canvas difference_scale(int width, double top, const std::string& label) {
     const TextStyle numbers{.size_px = house::kNote_px, .colour = house::kInk};
+    const TextStyle words{.size_px = house::kNote_px, .colour = house::kMuted};
+    const std::string wrapped = wrap(label, width, words);
+    const int below = 1 + kBarHeight + 1 + kTickHeight;
     const int line = line_height(numbers);
-    Canvas canvas = make_canvas(width, 1 + kBarHeight + 1 + kTickHeight + 2 * line, house::kPaper);
+    Canvas canvas = make_canvas(width, below + line + line_count(wrapped) * line_height(words), house::kPaper);
     const int bar_width = width - 2;
     std::vector<float> fractions;
     for (int y = 0; y < kBarHeight; ++y)
@@ -75,19 +81,19 @@ Canvas difference_scale(int width, double top, const std::string& label) {
     paste(canvas, colours_of(fractions, bar_width, kBarHeight), bar.x0, bar.y0);
     outline(canvas, bar, house::kRule);
 
-    const int below = bar.y1 + 1 + kTickHeight;
-    const auto mark = [&](int x, double value, Anchor anchor) {
+    const auto mark = [&](double part, Anchor anchor) {
+        const int x = static_cast<int>(std::lround(place_of(part) * (width - 1)));
         fill(canvas, {x, bar.y1, x + 1, below}, house::kInk);
-        const char* beyond = value == top ? "≥ " : "";
         TextStyle style = numbers;
         style.anchor = anchor;
-        draw_text(canvas, x, below, fmt::format("{}{:.3g}", beyond, value), style);
+        // A right anchor is the end of the text, which the last column still belongs to.
+        draw_text(canvas, anchor == Anchor::right ? width : x, below,
+                  fmt::format("{}{:.3g}", part == 1 ? "≥ " : "", part * top), style);
     };
-    mark(0, 0, Anchor::left);
-    mark(width / 2, top / 2, Anchor::centre);
-    mark(width - 1, top, Anchor::right);
-    draw_text(canvas, width / 2, below + line, label,
-              {.size_px = house::kNote_px, .colour = house::kMuted, .anchor = Anchor::centre});
+    mark(0, Anchor::left);
+    for (const double part : {0.02, 0.1, 0.4}) mark(part, Anchor::centre);
+    mark(1, Anchor::right);
+    draw_text(canvas, 0, below + line, wrapped, words);
     return canvas;
 }
 

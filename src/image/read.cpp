@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <memory>
 
@@ -11,6 +12,7 @@
 #include "src/image/image_error.h"
 #include "src/image/library.h"
 #include "src/image/metadata.h"
+#include "src/image/srgb.h"
 
 namespace strata::image {
 namespace fs = std::filesystem;
@@ -93,6 +95,14 @@ Picture read_picture(const fs::path& path) {
     // A TIFF that lacks strips is "read", with an error pending.
     const bool done = opened.input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, picture.rgb.data());
     if (!done || opened.input->has_error()) fail(path, opened.input->geterror());
+    return picture;
+}
+
+Picture read_linear(const fs::path& path, double exposure) {
+    Picture picture = read_picture(path);
+    if (sniff(path) == Format::exr) return picture;
+    const double scale = std::exp2(-exposure);
+    for (float& value : picture.rgb) value = static_cast<float>(decode_srgb(value) * scale);
     return picture;
 }
 

@@ -18,6 +18,10 @@ bool is_picture(const std::filesystem::path& path);
 // there. Throws ImageError for what is no picture, has fewer than three channels or is damaged.
 Picture read_picture(const std::filesystem::path& path);
 
+// Linear radiance: EXR as stored, the others' sRGB codes decoded, with the exposure (stops, finite) undone that they
+// were written with; what they clipped to 1 stays there. Throws as read_picture().
+Picture read_linear(const std::filesystem::path& path, double exposure = 0.0);
+
 // A metadata entry as it was written, or nothing when the picture has none of that name. Throws ImageError for what is
 // no picture.
 std::optional<std::string> read_metadata(const std::filesystem::path& path, std::string_view name);

@@ -73,10 +73,18 @@ std::size_t fitting(std::string_view text, int width_px, const TextStyle& style)
     return starts[std::min(count, starts.size() - 1)];
 }
 
+// The blank where a line may end: "m = 4" stays together.
+std::size_t find_break(std::string_view line) {
+    std::size_t at = line.find(' ');
+    while (at != std::string_view::npos && (line.substr(at + 1, 1) == "=" || (at > 0 && line[at - 1] == '=')))
+        at = line.find(' ', at + 1);
+    return std::min(at, line.size());
+}
+
 void wrap_line(std::string_view line, int width_px, const TextStyle& style, std::string& wrapped) {
     std::string current;
     while (!line.empty()) {
-        const std::size_t end = std::min(line.find(' '), line.size());
+        const std::size_t end = find_break(line);
         std::string_view word = line.substr(0, end);
         line.remove_prefix(std::min(line.size(), end + 1));
         std::string longer = current.empty() ? std::string(word) : fmt::format("{} {}", current, word);

@@ -38,8 +38,8 @@ int text_width(std::string_view text, const TextStyle& style);
 // end by the anchor; each line is anchored by itself. Returns the height drawn over: line_height a line.
 int draw_text(Canvas& canvas, int x, int y, std::string_view text, const TextStyle& style = {});
 
-// The text in lines no wider than width_px, broken at blanks; line feeds stay. A word that is wider alone is broken
-// between characters.
+// The text in lines no wider than width_px, broken at blanks, but not beside a '='; line feeds stay. A word that is
+// wider alone is broken between characters.
 std::string wrap(std::string_view text, int width_px, const TextStyle& style);
 
 // The text shortened to width_px with an ellipsis in its middle, if it is wider; one line.

@@ -1,0 +1,282 @@
+#include "tools/strip_job.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "src/image/canvas.h"
+#include "src/image/image_error.h"
+#include "src/image/metadata.h"
+#include "src/image/output_file.h"
+#include "src/image/read.h"
+#include "src/image/text.h"
+#include "src/scene/key_text.h"
+#include "src/scene/printer.h"
+#include "src/scene/toml_reader.h"
+#include "tools/column_settings.h"
+#include "tools/errors.h"
+#include "tools/picture_labels.h"
+
+namespace strata::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostColumns = 64;
+constexpr int kMostZoom = 64;
+constexpr int kPanelWidth = 256;  // that the automatic zoom keeps to
+
+StripSource from_file(const std::string& path) {
+    StripSource source{.name = path, .label = fs::path(path).stem().string(), .file = path, .scene = {}, .picture = {}};
+    try {
+        const auto text = image::read_metadata(path, image::kSceneKey);
+        if (text) source.scene = scene::read_scene(*text, path);
+        source.picture = image::read_linear(path, source.scene ? source.scene->film.exposure : 0.0);
+    } catch (const image::ImageError& error) {
+        throw UsageError(error.what());
+    }
+    return source;
+}
+
+StripSource from_settings(const LoadedScene& loaded, const ColumnSettings& settings, const char* origin) {
+    return {.name = settings.text,
+            .label = settings.label,
+            .file = {},
+            .scene = with_settings(loaded.scene, settings, origin),
+            .picture = {}};
+}
+
+void require(bool condition, const char* message) {
+    if (!condition) throw UsageError(message);
+}
+
+std::vector<StripSource> find_columns(const StripRequest& request, const std::optional<LoadedScene>& loaded) {
+    std::vector<StripSource> columns;
+    for (const std::string& path : request.pictures) columns.push_back(from_file(path));
+    std::vector<std::optional<scene::Scene>> scenes;
+    std::vector<std::string> names;
+    for (const StripSource& column : columns) {
+        scenes.push_back(column.scene);
+        names.push_back(column.label);
+    }
+    const std::vector<std::string> labels = labels_of(scenes, names);
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].label = labels[i];
+    if (loaded) {
+        for (const ColumnSettings& settings : parse_columns("--columns", request.columns))
+            columns.push_back(from_settings(*loaded, settings, "--columns"));
+    }
+    if (columns.size() > kMostColumns)
+        throw UsageError(fmt::format("{} pictures: allowed: at most {} in a strip", columns.size(), kMostColumns));
+    return columns;
+}
+
+void replace_labels(const std::string& text, std::vector<StripSource>& columns) {
+    if (text.empty()) return;
+    std::vector<std::string> labels(1);
+    for (const char c : text) {
+        if (c == ';')
+            labels.emplace_back();
+        else if (c != ' ' || !labels.back().empty())
+            labels.back() += c;
+    }
+    if (labels.size() != columns.size())
+        throw UsageError(fmt::format("--labels {}: {} labels for {} pictures, allowed: one each, between ';'",
+                                     scene::excerpt(text), labels.size(), columns.size()));
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].label = labels[i];
+}
+
+// A column by its number or its words, a file, or settings to be rendered.
+void find_reference(const StripRequest& request, const std::optional<LoadedScene>& loaded, StripJob& job) {
+    const std::string& text = request.reference;
+    if (text.empty()) {
+        require(!request.difference && !request.rmse,
+                "--difference and --rmse need --reference: the number of a column, a picture, or settings");
+        return;
+    }
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error == std::errc() && end == text.data() + text.size()) {
+        if (number < 1 || number > static_cast<int>(job.columns.size()))
+            throw UsageError(fmt::format("--reference {}: allowed: column 1 to {}", text, job.columns.size()));
+        job.reference_column = static_cast<std::size_t>(number - 1);
+        return;
+    }
+    const auto named = [&](const StripSource& column) { return column.name == text || column.label == text; };
+    const auto column = std::ranges::find_if(job.columns, named);
+    if (column != job.columns.end()) {
+        job.reference_column = static_cast<std::size_t>(column - job.columns.begin());
+        return;
+    }
+    std::error_code ignored;
+    if (!loaded || fs::exists(text, ignored) || fs::path(text).has_extension())
+        job.reference = from_file(text);
+    else
+        job.reference = from_settings(*loaded, parse_column("--reference", text), "--reference");
+}
+
+struct Extent {
+    int frame_width, frame_height;
+    render::Window window;
+};
+
+Extent extent_of(const StripSource& source) {
+    if (!source.file.empty()) {
+        const image::Picture& p = source.picture;
+        return {p.frame_width, p.frame_height, {p.x0, p.y0, p.x1, p.y1}};
+    }
+    const scene::Film& film = source.scene->film;
+    return {film.width, film.height, {0, 0, film.width, film.height}};
+}
+
+image::Picture cut(const image::Picture& whole, const render::Window& w) {
+    image::Picture part{whole.frame_width, whole.frame_height, w.x0, w.y0, w.x1, w.y1, {}};
+    const std::size_t count = 3 * static_cast<std::size_t>(w.width());
+    for (int y = w.y0; y < w.y1; ++y) {
+        const std::size_t first =
+            3 * (static_cast<std::size_t>(y - whole.y0) * static_cast<std::size_t>(whole.width()) +
+                 static_cast<std::size_t>(w.x0 - whole.x0));
+        const auto row = whole.rgb.begin() + static_cast<std::ptrdiff_t>(first);
+        part.rgb.insert(part.rgb.end(), row, row + static_cast<std::ptrdiff_t>(count));
+    }
+    return part;
+}
+
+// Without --crop crops compare by their pixels, wherever they lie; with it all must have the same frame.
+void require_equal_sizes(const StripSource& first, const StripSource& other, bool has_crop) {
+    const Extent a = extent_of(first), b = extent_of(other);
+    const bool equal = has_crop ? a.frame_width == b.frame_width && a.frame_height == b.frame_height
+                                : a.window.width() == b.window.width() && a.window.height() == b.window.height();
+    if (equal) return;
+    const auto size = [&](const Extent& e) {
+        return has_crop ? fmt::format("{}x{}", e.frame_width, e.frame_height)
+                        : fmt::format("{}x{}", e.window.width(), e.window.height());
+    };
+    throw UsageError(fmt::format("pictures of different size: {} has {} pixels, {} has {}; allowed: equal sizes",
+                                 first.name, size(a), other.name, size(b)));
+}
+
+void apply_crop(const StripRequest& request, StripJob& job) {
+    std::vector<StripSource*> sources;
+    for (StripSource& column : job.columns) sources.push_back(&column);
+    if (job.reference) sources.push_back(&*job.reference);
+    const bool has_crop = !request.crop.empty();
+    for (const StripSource* source : sources) require_equal_sizes(*sources.front(), *source, has_crop);
+
+    const Extent first = extent_of(*sources.front());
+    job.frame_width = first.frame_width;
+    job.frame_height = first.frame_height;
+    job.window = first.window;
+    if (has_crop) {
+        scene::Film frame;
+        frame.width = first.frame_width;
+        frame.height = first.frame_height;
+        job.window = parse_crop("--crop", request.crop, frame);
+    }
+    const render::Window& w = job.window;
+    for (StripSource* source : sources) {
+        if (source->file.empty() || !has_crop) continue;
+        const render::Window has = extent_of(*source).window;
+        if (w.x0 < has.x0 || w.y0 < has.y0 || w.x1 > has.x1 || w.y1 > has.y1)
+            throw UsageError(fmt::format("--crop {}: {} holds pixels {},{},{},{} alone", request.crop, source->name,
+                                         has.x0, has.y0, has.x1, has.y1));
+        source->picture = cut(source->picture, w);
+    }
+}
+
+int choose_zoom(const StripRequest& request, const render::Window& window) {
+    if (request.zoom.empty()) return std::clamp(kPanelWidth / window.width(), 1, 16);
+    return parse_integer("--zoom", request.zoom, 1, kMostZoom);
+}
+
+std::optional<double> parse_top(const std::string& text) {
+    if (text.empty()) return std::nullopt;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value) || value <= 0)
+        throw UsageError(fmt::format("--difference-top {}: allowed: a radiance above 0", scene::excerpt(text)));
+    return value;
+}
+
+std::string default_caption(const StripJob& job) {
+    const render::Window& w = job.window;
+    std::string text = w == render::Window{0, 0, job.frame_width, job.frame_height}
+                           ? fmt::format("{}×{} pixels", w.width(), w.height())
+                           : fmt::format("Pixels {} to {} across and {} to {} down of {}×{}", w.x0, w.x1, w.y0, w.y1,
+                                         job.frame_width, job.frame_height);
+    if (job.zoom > 1) text += fmt::format(", each shown as {}×{}", job.zoom, job.zoom);
+    return text + ".";
+}
+
+void check_outputs(const StripJob& job) {
+    try {
+        image::check_canvas_format(job.output);
+    } catch (const image::ImageError& error) {
+        throw UsageError(error.what());
+    }
+    image::check_writable(job.output);
+    if (!job.parts) return;
+    for (std::size_t i = 0; i < job.columns.size(); ++i) image::check_writable(part_path(job, i));
+    if (job.reference) image::check_writable(part_path(job, std::nullopt));
+}
+
+// Nothing that is read is written over.
+void check_inputs_stay(const StripJob& job) {
+    std::vector<fs::path> outputs{job.output};
+    if (job.parts) {
+        for (std::size_t i = 0; i < job.columns.size(); ++i) outputs.push_back(part_path(job, i));
+        if (job.reference) outputs.push_back(part_path(job, std::nullopt));
+    }
+    std::vector<fs::path> inputs;
+    for (const StripSource& column : job.columns) inputs.push_back(column.file);
+    if (job.reference) inputs.push_back(job.reference->file);
+    for (const fs::path& input : inputs) {
+        for (const fs::path& output : outputs) {
+            std::error_code error;
+            if (!input.empty() && fs::equivalent(input, output, error))
+                throw UsageError(fmt::format("{}: this output is a picture of the strip", output.string()));
+        }
+    }
+}
+
+}  // namespace
+
+fs::path part_path(const StripJob& job, std::optional<std::size_t> i) {
+    const std::string which = i ? fmt::format("{:0{}}", *i + 1, job.columns.size() > 9 ? 2 : 1) : "reference";
+    return job.output.parent_path() / fmt::format("{}-{}.exr", job.output.stem().string(), which);
+}
+
+StripJob prepare_strip(const StripRequest& request) {
+    require(!request.pictures.empty() || request.has_scene, "nothing to show: give pictures, or --scene and --columns");
+    require(request.has_scene == !request.columns.empty(), "--scene and --columns go together");
+    StripJob job;
+    job.quiet = request.quiet;
+    job.threads = parse_integer("--threads", request.threads, 0, 1024);
+    if (!request.simd.empty()) use_simd_target(request.simd);
+    std::optional<LoadedScene> loaded;
+    if (request.has_scene) loaded = request.scene.load();
+    job.columns = find_columns(request, loaded);
+    replace_labels(request.labels, job.columns);
+    find_reference(request, loaded, job);
+    apply_crop(request, job);
+    job.zoom = choose_zoom(request, job.window);
+    job.top = parse_top(request.top);
+    job.difference = request.difference;
+    job.rmse = request.rmse;
+    job.parts = request.parts;
+    const auto& first_scene = job.columns.front().scene;
+    job.exposure = loaded ? loaded->scene.film.exposure : first_scene ? first_scene->film.exposure : 0.0;
+    job.title = request.title.value_or(loaded ? loaded->scene.title : "");
+    job.caption = request.caption.value_or(default_caption(job));
+    if (loaded) job.scene_text = scene::print_scene(loaded->scene);
+    job.output = request.output.empty() ? fs::path("strip.png") : fs::path(request.output);
+    check_outputs(job);
+    check_inputs_stay(job);
+    image::check_fonts();
+    return job;
+}
+
+}  // namespace strata::tools

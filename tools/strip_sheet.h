@@ -1,0 +1,15 @@
+// The picture of a strip whose parts are all there.
+#pragma once
+
+#include "src/image/canvas.h"
+#include "src/image/metadata.h"
+#include "tools/strip_job.h"
+
+namespace strata::tools {
+
+image::Canvas draw_strip(const StripJob& job);
+
+// How the strip was made: settings, crop, zoom, reference. Nothing that differs between equal strips.
+image::Metadata strip_metadata(const StripJob& job);
+
+}  // namespace strata::tools
