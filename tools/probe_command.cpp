@@ -100,21 +100,23 @@ void probe_field(const SceneArgument& argument) {
     const trace::Field field(scene.surface);
     const trace::Placement placement(scene.surface);
     each_line(3, 4, "x y z [t], world units and seconds", [&](const std::vector<double>& in) {
-        const glm::dmat3 orientation = orientation_at(placement, in.size() > 3 ? in[3] : mid_shutter(scene));
+        const double t = in.size() > 3 ? in[3] : mid_shutter(scene);
+        const glm::dmat3 orientation = orientation_at(placement, t);
         const glm::dvec3 x = placement.point_to_local(orientation, {in[0], in[1], in[2]});
-        check_within_reach(field, glm::length(x));
+        const glm::dvec3 shift = field.noise_shift(t);
+        check_within_reach(field, glm::length(x) + glm::length(shift));
         std::string octaves;
         for (std::size_t k = 0; k < field.octaves().size(); ++k) {
-            octaves += (k ? "," : "") + number(field.octave(k, x));
+            octaves += (k ? "," : "") + number(field.octave(k, x, shift));
         }
-        print_out(fmt::format("{{\"f\":{},\"gradient\":{},\"octaves\":[{}]}}\n", number(field.value(x)),
-                              vector(orientation * field.gradient(x) / placement.scale()), octaves));
+        print_out(fmt::format("{{\"f\":{},\"gradient\":{},\"octaves\":[{}]}}\n", number(field.value(x, shift)),
+                              vector(orientation * field.gradient(x, shift) / placement.scale()), octaves));
     });
 }
 
 void print_ray(const render::SurfaceImage& image, const trace::Ray& world, double t) {
     const glm::dmat3 orientation = orientation_at(image.placement(), t);
-    const trace::Ray ray = image.placement().to_local(orientation, world);
+    const trace::Ray ray = image.to_local(orientation, world, t);
     trace::Hit hit;
     trace::TraceCounters counters;
     image.trace({&ray, 1}, {&hit, 1}, counters);
@@ -122,7 +124,7 @@ void print_ray(const render::SurfaceImage& image, const trace::Ray& world, doubl
     if (hit.state == trace::HitState::hit) {
         const glm::dvec3 x = ray.origin + hit.s * ray.direction;
         glm::vec3 n;
-        image.normals({&hit, 1}, {&x, 1}, {&n, 1}, counters);
+        image.normals({&hit, 1}, {&x, 1}, {&ray.noise_shift, 1}, {&n, 1}, counters);
         distance = number(hit.s * image.placement().scale());
         position = vector(image.placement().point_to_world(orientation, x));
         normal = vector(orientation * glm::dvec3(n));
@@ -162,7 +164,7 @@ void probe_pixel_ray(const RayRequest& request, const scene::Scene& scene, const
         v = chosen.v;
         t = chosen.time_s;
     }
-    print_ray(image, image.camera_ray(pixel.x + 0.5 + u, pixel.y + 0.5 + v), t);
+    print_ray(image, image.camera_ray(pixel.x + 0.5 + u, pixel.y + 0.5 + v, t), t);
 }
 
 void probe_ray(const RayRequest& request) {
@@ -173,10 +175,12 @@ void probe_ray(const RayRequest& request) {
     if (!request.sample.empty()) throw UsageError("--sample: allowed: with --pixel only");
     each_line(6, 7, "ox oy oz dx dy dz [t], a direction other than zero", [&](const std::vector<double>& in) {
         const glm::dvec3 origin(in[0], in[1], in[2]);
+        const double t = in.size() > 6 ? in[6] : mid_shutter(scene);
         const double distance = glm::length(origin - scene.surface.origin) + scene.camera.far;
-        check_within_reach(image.field(), distance / image.placement().scale());
+        check_within_reach(image.field(),
+                           distance / image.placement().scale() + glm::length(image.field().noise_shift(t)));
         const glm::dvec3 direction = near_unit_length({in[3], in[4], in[5]});
-        print_ray(image, image.world_ray(origin, direction), in.size() > 6 ? in[6] : mid_shutter(scene));
+        print_ray(image, image.world_ray(origin, direction, t), t);
     });
 }
 

@@ -29,6 +29,11 @@ bool samples_by_density(EstimatorKind kind) {
     return kind == EstimatorKind::stratified || kind == EstimatorKind::random || kind == EstimatorKind::sobol;
 }
 
+std::uint64_t seed_of_frame(std::uint64_t seed, int frame) {
+    if (frame == 0) return seed;
+    return noise::mix64(noise::mix64(seed) + sample::kCounterStride * static_cast<std::uint64_t>(frame));
+}
+
 }  // namespace
 
 EstimatorSettings estimator_settings(const scene::Scene& scene) {
@@ -37,7 +42,7 @@ EstimatorSettings estimator_settings(const scene::Scene& scene) {
     settings.N = scene.sampling.N;
     settings.m = scene.sampling.m;
     settings.time_order = scene.sampling.time_order;
-    settings.seed = scene.sampling.seed;
+    settings.seed = seed_of_frame(scene.sampling.seed, scene.shutter.frame);
     settings.shutter = {scene.shutter.frame / scene.shutter.fps, scene.shutter.open_s};
     return settings;
 }

@@ -40,7 +40,8 @@ struct EstimatorSettings {
     sample::Shutter shutter;
 };
 
-// The settings a scene asks for, its frame's time included.
+// The settings a scene asks for, its frame's time included. Each frame has sample positions of its own: its seed is the
+// scene's mixed with the frame's number, and the scene's itself for frame 0.
 EstimatorSettings estimator_settings(const scene::Scene& scene);
 
 // The samples of several pixels or cells, one after the other; as many for each. Its memory is reused from call to

@@ -1,6 +1,7 @@
 #include "src/render/surface_image.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "shaders_cpu/sky.h"
@@ -39,7 +40,7 @@ struct SurfaceImage::Lit {
 struct SurfaceImage::Chunk {
     std::vector<trace::Ray> rays, shadow_rays;
     std::vector<trace::Hit> hits, surface_hits, shadow_hits;
-    std::vector<glm::dvec3> view, sun, x;
+    std::vector<glm::dvec3> view, sun, x, noise_shift;
     std::vector<glm::vec3> normal;
     std::vector<Lit> lit;
     std::vector<std::size_t> shadow_owner;
@@ -52,21 +53,27 @@ SurfaceImage::SurfaceImage(const scene::Scene& scene, Tracer tracer, std::uint32
       field_(scene.surface),
       fast_(field_),
       placement_(scene.surface),
-      camera_(scene.camera, scene.film),
+      path_(scene.camera),
+      camera_(path_.at(0.0), scene.film),
       sun_direction_(glm::normalize(scene.sun.direction)) {}
 
-trace::Ray SurfaceImage::camera_ray(double u, double v) const {
-    const trace::CameraRay seen = camera_.ray(u, v);
-    return {.origin = camera_.position(),
+trace::Ray SurfaceImage::camera_ray(double u, double v, double t) const {
+    return camera_ray(path_.moves() ? trace::Camera(path_.at(t), scene_.film) : camera_, u, v);
+}
+
+trace::Ray SurfaceImage::camera_ray(const trace::Camera& camera, double u, double v) const {
+    const trace::CameraRay seen = camera.ray(u, v);
+    return {.origin = camera.position(),
             .direction = seen.direction,
+            .noise_shift = {},
             .limit = scene_.camera.far,
             .delta0 = 0.0,
             .delta_slope = scene_.sampling.tolerance * seen.pixel_angle,
             .step_limit = step_limit_};
 }
 
-trace::Ray SurfaceImage::world_ray(const glm::dvec3& origin, const glm::dvec3& direction) const {
-    trace::Ray ray = camera_ray(0.5 * scene_.film.width, 0.5 * scene_.film.height);
+trace::Ray SurfaceImage::world_ray(const glm::dvec3& origin, const glm::dvec3& direction, double t) const {
+    trace::Ray ray = camera_ray(0.5 * scene_.film.width, 0.5 * scene_.film.height, t);
     ray.origin = origin;
     ray.direction = glm::normalize(direction);
     return ray;
@@ -78,14 +85,17 @@ void SurfaceImage::trace(std::span<const trace::Ray> rays, std::span<trace::Hit>
     fast_.trace(rays, hits, counters);
 }
 
-void SurfaceImage::normals(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x, std::span<glm::vec3> normal,
+void SurfaceImage::normals(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
+                           std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> normal,
                            trace::TraceCounters& counters) const {
     if (tracer_ == Tracer::reference) {
-        for (std::size_t i = 0; i < x.size(); ++i) normal[i] = glm::vec3(field_.gradient(x[i]));
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            normal[i] = glm::vec3(field_.gradient(x[i], noise_shift.empty() ? glm::dvec3(0.0) : noise_shift[i]));
+        }
         counters.noise_evaluations += x.size() * field_.octaves().size();
         counters.executed_lanes += x.size() * field_.octaves().size();
     } else {
-        fast_.gradients(x, normal, counters);
+        fast_.gradients(x, noise_shift, normal, counters);
     }
     for (std::size_t i = 0; i < x.size(); ++i) {
         if (hits[i].on_bound) normal[i] = glm::vec3(field_.bound_normal(x[i]));
@@ -109,15 +119,20 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
     const std::size_t count = samples.u.size();
     trace::TraceCounters traced;
 
-    // Rays, turned into the surface's coordinates at their own time. The sky does not spin with it.
+    // Rays of the camera at their own time, turned into the surface's coordinates at that time. The sky does not spin
+    // with it.
     chunk.rays.resize(count);
     chunk.view.resize(count);
     chunk.sun.resize(count);
     glm::dmat3 orientation = placement_.orientation(0.0);
+    std::optional<trace::Camera> moved;
     for (std::size_t i = 0; i < count; ++i) {
-        if (placement_.moves()) orientation = placement_.orientation(samples.t[i]);
-        const trace::Ray world = camera_ray(samples.u[i], samples.v[i]);
-        chunk.rays[i] = placement_.to_local(orientation, world);
+        const double t = samples.t[i];
+        const bool is_new_time = i == 0 || t != samples.t[i - 1];  // of an instant there is one
+        if (placement_.moves() && is_new_time) orientation = placement_.orientation(t);
+        if (path_.moves() && is_new_time) moved.emplace(path_.at(t), scene_.film);
+        const trace::Ray world = camera_ray(moved ? *moved : camera_, samples.u[i], samples.v[i]);
+        chunk.rays[i] = to_local(orientation, world, t);
         chunk.view[i] = trace::Placement::direction_to_local(placement_.resting_orientation(), world.direction);
         chunk.sun[i] = trace::Placement::direction_to_local(orientation, sun_direction_);
     }
@@ -128,6 +143,7 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
     chunk.lit.clear();
     chunk.surface_hits.clear();
     chunk.x.clear();
+    chunk.noise_shift.clear();
     for (std::size_t i = 0; i < count; ++i) {
         const trace::Ray& ray = chunk.rays[i];
         const trace::Hit& hit = chunk.hits[i];
@@ -138,12 +154,13 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
             ++counters.unresolved_rays;
         } else {
             chunk.x.push_back(ray.origin + hit.s * ray.direction);
+            if (field_.drifts()) chunk.noise_shift.push_back(ray.noise_shift);
             chunk.surface_hits.push_back(hit);
             chunk.lit.push_back({.sample = i, .view = chunk.view[i], .sun = chunk.sun[i], .distance = hit.s});
         }
     }
     chunk.normal.resize(chunk.x.size());
-    normals(chunk.surface_hits, chunk.x, chunk.normal, traced);
+    normals(chunk.surface_hits, chunk.x, chunk.noise_shift, chunk.normal, traced);
     const bool is_planet = scene_.surface.kind == scene::SurfaceKind::planet;
     for (std::size_t i = 0; i < chunk.lit.size(); ++i) {
         Lit& lit = chunk.lit[i];

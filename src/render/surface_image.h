@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "src/render/image_function.h"
+#include "src/scene/camera_path.h"
 #include "src/scene/scene.h"
 #include "src/trace/camera.h"
 #include "src/trace/fast_tracer.h"
@@ -29,17 +30,24 @@ class SurfaceImage final : public ImageFunction {
     const trace::Field& field() const { return field_; }
     const trace::Placement& placement() const { return placement_; }
 
-    // The camera's ray through a point of the screen, in the world, with the scene's tolerance.
-    trace::Ray camera_ray(double u, double v) const;
+    // The camera's ray through a point of the screen at a time, in the world, with the scene's tolerance.
+    trace::Ray camera_ray(double u, double v, double t) const;
 
-    // A ray of the world with the tolerance that the centre of the screen has.
-    trace::Ray world_ray(const glm::dvec3& origin, const glm::dvec3& direction) const;
+    // A ray of the world with the tolerance that the centre of the screen has at that time.
+    trace::Ray world_ray(const glm::dvec3& origin, const glm::dvec3& direction, double t) const;
+
+    // A ray of the world at a time, in the surface's coordinates.
+    trace::Ray to_local(const glm::dmat3& orientation, const trace::Ray& world, double t) const {
+        return placement_.to_local(orientation, world, field_.noise_shift(t));
+    }
 
     // Traces rays in the surface's coordinates.
     void trace(std::span<const trace::Ray> rays, std::span<trace::Hit> hits, trace::TraceCounters& counters) const;
 
-    // Outward unit normals of hits in the surface's coordinates: `x` are their positions.
-    void normals(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x, std::span<glm::vec3> normal,
+    // Outward unit normals of hits in the surface's coordinates: `x` are their positions, noise_shift that of their
+    // rays, or empty where nothing drifts.
+    void normals(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
+                 std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> normal,
                  trace::TraceCounters& counters) const;
 
   private:
@@ -50,6 +58,7 @@ class SurfaceImage final : public ImageFunction {
                         Counters& counters) const;
     void shadow(Chunk& chunk, Counters& counters) const;
     glm::vec3 shade_hit(const Lit& lit) const;
+    trace::Ray camera_ray(const trace::Camera& camera, double u, double v) const;
 
     scene::Scene scene_;
     Tracer tracer_;
@@ -57,7 +66,8 @@ class SurfaceImage final : public ImageFunction {
     trace::Field field_;
     trace::FastTracer fast_;
     trace::Placement placement_;
-    trace::Camera camera_;
+    scene::CameraPath path_;
+    trace::Camera camera_;      // where it stays, if it does
     glm::dvec3 sun_direction_;  // in the world, of unit length
 };
 

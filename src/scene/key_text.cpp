@@ -32,6 +32,17 @@ std::string vector_text(const Key& key) {
     return fmt::format("3 numbers from {}{}{}", range_text(key), unit, direction);
 }
 
+std::string triple_text(const glm::dvec3& v) {
+    return fmt::format("[{}, {}, {}]", number_text(v.x), number_text(v.y), number_text(v.z));
+}
+
+std::string camera_keys_text(const std::vector<CameraKey>& entries) {
+    if (entries.empty()) return "[]";
+    std::string text = "[\n";
+    for (const CameraKey& entry : entries) text += fmt::format("  {},\n", camera_key_text(entry));
+    return text + "]";
+}
+
 // Control characters as TOML escapes them in strings.
 std::string without_controls(std::string_view text) {
     std::string result;
@@ -70,13 +81,26 @@ std::string excerpt(std::string_view text) {
     return without_controls(text.substr(0, cut)) + "...";
 }
 
+std::string camera_key_text(const CameraKey& entry) {
+    std::string text = fmt::format("{{ time_s = {}", number_text(entry.time_s));
+    if (entry.position) text += ", position = " + triple_text(*entry.position);
+    if (entry.look_at) text += ", look_at = " + triple_text(*entry.look_at);
+    if (entry.fov_deg) text += ", fov_deg = " + number_text(*entry.fov_deg);
+    return text + " }";
+}
+
+std::optional<std::string> time_problem(const std::vector<CameraKey>& entries, std::size_t i) {
+    if (i == 0 || entries[i].time_s - entries[i - 1].time_s >= kLeastKeyGap_s) return std::nullopt;
+    const std::string before = number_text(entries[i - 1].time_s);
+    if (entries[i].time_s == entries[i - 1].time_s) return fmt::format("the time of the entry before it ({})", before);
+    return fmt::format("not {:g} s later than the entry before it ({})", kLeastKeyGap_s, before);
+}
+
 std::string value_text(const Key& key) {
     return std::visit(Overload{[](const bool* field) { return std::string(*field ? "true" : "false"); },
                                [](const double* field) { return number_text(*field); },
-                               [](const glm::dvec3* field) {
-                                   return fmt::format("[{}, {}, {}]", number_text(field->x), number_text(field->y),
-                                                      number_text(field->z));
-                               },
+                               [](const glm::dvec3* field) { return triple_text(*field); },
+                               [](const std::vector<CameraKey>* field) { return camera_keys_text(*field); },
                                [](const std::string* field) { return quoted(*field); },
                                [](const Choice& choice) { return quoted(choice.names[choice.get()]); },
                                [](const auto* integer) { return fmt::format("{}", *integer); }},
@@ -90,6 +114,12 @@ std::string allowed_text(const Key& key) {
                  [](const std::uint64_t*) { return fmt::format("integers 0 to {}", kLargestSeed); },
                  [&](const double*) { return range_text(key); }, [&](const glm::dvec3*) { return vector_text(key); },
                  [](const std::string*) { return std::string("text in quotes"); },
+                 [](const std::vector<CameraKey>*) {
+                     return fmt::format(
+                         "up to {} tables of time_s (s, increasing by {:g} or more) and any of position, "
+                         "look_at, fov_deg",
+                         kMostCameraKeys, kLeastKeyGap_s);
+                 },
                  [](const Choice& choice) { return choice_text(choice); }},
         key.field);
     const bool is_vector = std::holds_alternative<glm::dvec3*>(key.field);
@@ -108,6 +138,12 @@ std::optional<std::string> field_problem(const Key& key) {
     if (const auto* integer = std::get_if<int*>(&key.field)) return number_problem(key, **integer);
     if (const auto* seed = std::get_if<std::uint64_t*>(&key.field)) {
         if (**seed > kLargestSeed) return "out of range";
+    }
+    if (const auto* entries = std::get_if<std::vector<CameraKey>*>(&key.field)) {
+        if ((*entries)->size() > kMostCameraKeys) return fmt::format("{} entries, too many", (*entries)->size());
+        for (std::size_t i = 0; i < (*entries)->size(); ++i) {
+            if (auto problem = time_problem(**entries, i)) return fmt::format("time_s of entry {} is {}", i, *problem);
+        }
     }
     if (const auto* vector = std::get_if<glm::dvec3*>(&key.field)) {
         const glm::dvec3& value = **vector;

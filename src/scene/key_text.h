@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "src/scene/keys.h"
 
@@ -18,8 +19,14 @@ std::string quoted(std::string_view text);
 // What a message repeats of the user's text: on one line, the end of a long one left out, UTF-8 characters whole.
 std::string excerpt(std::string_view text);
 
-// The present value of the key's field as TOML.
+// An entry of camera.keys as an inline table of TOML.
+std::string camera_key_text(const CameraKey& entry);
+
+// The present value of the key's field as TOML; camera keys a line each.
 std::string value_text(const Key& key);
+
+// What is wrong with the time of entry i, seen from the one before it.
+std::optional<std::string> time_problem(const std::vector<CameraKey>& entries, std::size_t i);
 
 // What the key takes, with its unit: "0.01 to 179 degrees".
 std::string allowed_text(const Key& key);
@@ -27,7 +34,8 @@ std::string allowed_text(const Key& key);
 // What is wrong with value as the key's number, or as a component of its vector: "out of range".
 std::optional<std::string> number_problem(const Key& key, double value);
 
-// What is wrong with the present value of the key's field.
+// What is wrong with the present value of the key's field. Of camera.keys: what is wrong with their number and order;
+// the values of each are keys of their own (describe_camera_key).
 std::optional<std::string> field_problem(const Key& key);
 
 // `name: problem (value), allowed: ...`

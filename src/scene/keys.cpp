@@ -1,5 +1,7 @@
 #include "src/scene/keys.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "src/scene/enum_names.h"
@@ -15,6 +17,9 @@ constexpr Range kLight{0.0, 1e6};
 constexpr Range kReflectance{0.0, 1.0};
 constexpr Range kFraction{0.0, 1.0};
 constexpr Range kAngle{-1e6, 1e6};
+constexpr Range kFieldOfView{0.01, 179.0};
+constexpr Range kDrift{-1e6, 1e6};
+constexpr Range kTime{-1e9, 1e9};
 
 Key number(std::string name, double& field, Range range, std::string_view unit, std::string_view meaning) {
     return {.section = {}, .name = std::move(name), .field = &field, .range = range, .unit = unit, .meaning = meaning};
@@ -55,6 +60,10 @@ Key choice(std::string name, E& field, std::string_view meaning) {
     Choice names{kEnumNames<E>, [&field] { return static_cast<std::size_t>(field); },
                  [&field](std::size_t index) { field = static_cast<E>(index); }};
     return {.section = {}, .name = std::move(name), .field = names, .range = {}, .unit = {}, .meaning = meaning};
+}
+
+Key camera_keys(std::string name, std::vector<CameraKey>& field, std::string_view meaning) {
+    return {.section = {}, .name = std::move(name), .field = &field, .range = {}, .unit = {}, .meaning = meaning};
 }
 
 Key only_if(bool matters, Key key) {
@@ -111,8 +120,13 @@ Section camera_section(Camera& camera, bool matters) {
         {vector("position", camera.position, kAnywhere, "world units", "where the eye is"),
          vector("look_at", camera.look_at, kAnywhere, "world units", "the point in the middle of the frame"),
          direction("up", camera.up, "what is up in the picture; another is picked when the view runs along it"),
-         number("fov_deg", camera.fov_deg, {0.01, 179.0}, "degrees", "horizontal field of view"),
-         number("far", camera.far, kDistance, "world units along a ray", "nothing is seen beyond")});
+         number("fov_deg", camera.fov_deg, kFieldOfView, "degrees", "horizontal field of view"),
+         number("far", camera.far, kDistance, "world units along a ray", "nothing is seen beyond"),
+         choice("interpolation", camera.interpolation,
+                "between keys: smooth eases through them without overshoot, linear goes straight"),
+         camera_keys("keys", camera.keys,
+                     "the camera over time, also as [[camera.keys]]; it rests before the first and after the last; "
+                     "parts left out are the camera's own")});
 }
 
 Section surface_section(Surface& surface, bool matters) {
@@ -127,6 +141,8 @@ Section surface_section(Surface& surface, bool matters) {
          direction("spin_axis", surface.spin_axis,
                    "axis of the spin through the origin, in world directions; spun after rotation_deg"),
          number("spin_deg_per_s", surface.spin_deg_per_s, kAngle, "degrees/s", "speed of the spin; 0: at rest"),
+         vector("drift", surface.drift, kDrift, "surface units/s",
+                "how the noise moves through the surface, in its own directions: terrain flows, bodies morph"),
          count("octaves", surface.octaves, {1, 32}, "", "terms of the sum"),
          number("lacunarity", surface.lacunarity, {1.0, 10.0}, "", "frequency ratio of neighbouring octaves"),
          number("gain", surface.gain, {0.0, 1.0}, "", "amplitude ratio of neighbouring octaves"),
@@ -195,6 +211,16 @@ Section wheel_section(Wheel& wheel, bool matters) {
 }
 
 }  // namespace
+
+Section describe_camera_key(CameraKey& entry, Camera& rest, std::size_t index) {
+    return section(
+        fmt::format("camera.keys[{}]", index), "the camera at one time", true,
+        {number("time_s", entry.time_s, kTime, "s", "when"),
+         vector("position", entry.position ? *entry.position : rest.position, kAnywhere, "world units", "where it is"),
+         vector("look_at", entry.look_at ? *entry.look_at : rest.look_at, kAnywhere, "world units", "what it looks at"),
+         number("fov_deg", entry.fov_deg ? *entry.fov_deg : rest.fov_deg, kFieldOfView, "degrees",
+                "horizontal field of view")});
+}
 
 std::vector<Section> describe(Scene& scene) {
     const bool surface = scene.image == ImageKind::surface;

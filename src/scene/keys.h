@@ -24,7 +24,8 @@ struct Choice {
 };
 
 // The field of a scene that a key stands for.
-using Field = std::variant<bool*, int*, std::uint64_t*, double*, glm::dvec3*, std::string*, Choice>;
+using Field =
+    std::variant<bool*, int*, std::uint64_t*, double*, glm::dvec3*, std::string*, Choice, std::vector<CameraKey>*>;
 
 // Closed, finite. Of a vector: of each component.
 struct Range {
@@ -58,6 +59,14 @@ struct Section {
     std::string_view meaning;
     std::vector<Key> keys;
 };
+
+// The keys of one entry of camera.keys, as section `camera.keys[index]`. The fields point into `entry`; those that it
+// leaves out point into `rest`, which is the camera's own.
+Section describe_camera_key(CameraKey& entry, Camera& rest, std::size_t index);
+
+// Entries of camera.keys: at most so many, and so far apart in time at least.
+inline constexpr std::size_t kMostCameraKeys = 10'000;
+inline constexpr double kLeastKeyGap_s = 1e-6;
 
 // Every key, in the order in which it is printed. The fields point into scene, which must outlive them.
 std::vector<Section> describe(Scene& scene);

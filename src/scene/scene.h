@@ -3,13 +3,16 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace strata::scene {
 
 enum class ImageKind { surface, zoneplate, checker, wheel };
 enum class SurfaceKind { terrain, hyperterrain, planet, isosurface };
 enum class BoundKind { ball, box };
+enum class Interpolation { smooth, linear };
 enum class EstimatorKind { none, super, uniform, jittered, stratified, random, sobol, shared, shared_sobol };
 
 struct Film {
@@ -33,15 +36,24 @@ struct Shutter {
     int frame = 0;
 };
 
+// Where the camera is at one time; what is left out is the camera's own.
+struct CameraKey {
+    double time_s = 0.0;
+    std::optional<glm::dvec3> position{}, look_at{};
+    std::optional<double> fov_deg{};
+};
+
 struct Camera {
     glm::dvec3 position{0.0, 1.0, 0.0};
     glm::dvec3 look_at{0.0, 1.0, 1.0};
     glm::dvec3 up{0.0, 1.0, 0.0};
     double fov_deg = 50.0;  // horizontal
     double far = 1000.0;    // world units along a ray
+    Interpolation interpolation = Interpolation::smooth;
+    std::vector<CameraKey> keys{};  // by time; none: a still camera. camera_path.h goes through them
 };
 
-// Sum over octaves k of amplitude * gain^k * n(frequency * lacunarity^k * x + offset_k).
+// Sum over octaves k of amplitude * gain^k * n(frequency * lacunarity^k * (x - drift t) + offset_k).
 struct Surface {
     SurfaceKind kind = SurfaceKind::terrain;
     glm::dvec3 origin{0.0};
@@ -49,6 +61,7 @@ struct Surface {
     double scale = 1.0;
     glm::dvec3 spin_axis{0.0, 1.0, 0.0};  // through origin, in world directions; after rotation_deg
     double spin_deg_per_s = 0.0;
+    glm::dvec3 drift{0.0};  // of the noise, in surface units a second and the surface's own directions
     int octaves = 8;
     double lacunarity = 2.0;
     double gain = 0.5;

@@ -38,6 +38,35 @@ std::optional<Fault> find_binary(std::string_view text) {
     return fault;
 }
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool is_bare(char c) {
+    return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-' || c == '+';
+}
+
+// Whether the dot at i stands between digits, in a word without another dot.
+bool is_decimal_point(std::string_view text, std::size_t i) {
+    if (i == 0 || i + 1 == text.size() || !is_digit(text[i - 1]) || !is_digit(text[i + 1])) return false;
+    std::size_t first = i, last = i;
+    while (first > 0 && is_bare(text[first - 1])) --first;
+    while (last + 1 < text.size() && is_bare(text[last + 1])) ++last;
+    const bool dot_before = first > 0 && text[first - 1] == '.';
+    const bool dot_after = last + 1 < text.size() && text[last + 1] == '.';
+    return !dot_before && !dot_after;
+}
+
+std::ptrdiff_t count_dots(std::string_view text) {
+    constexpr std::string_view kEntry = "[[camera.keys]]";
+    std::ptrdiff_t dots = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool line_begins = i == 0 || text[i - 1] == '\n';
+        if (line_begins && text.substr(i).starts_with(kEntry)) i += kEntry.size();
+        if (i >= text.size() || text[i] != '.') continue;
+        if (!is_decimal_point(text, i)) ++dots;
+    }
+    return dots;
+}
+
 }  // namespace
 
 std::string file_text(const std::string& path) {
@@ -61,7 +90,7 @@ std::optional<Fault> find_unreadable(std::string_view text) {
     if (text.size() > kLargestFile) {
         return Fault{1, 1, fmt::format("too large, allowed: scene files up to {} bytes", kLargestFile)};
     }
-    const auto dots = std::count(text.begin(), text.end(), '.');
+    const std::ptrdiff_t dots = count_dots(text);
     if (dots > kMostDots) {
         return Fault{1, 1, fmt::format("too many full stops ({}), allowed: {} in a file", dots, kMostDots)};
     }

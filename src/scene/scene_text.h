@@ -8,11 +8,12 @@
 
 namespace strata::scene {
 
-// Larger files are refused: scenes are a few kilobytes, so a larger file is something else.
-inline constexpr std::size_t kLargestFile = 1 << 20;
+// Larger files are refused: scenes are a few kilobytes, or two megabytes with as many camera keys as there may be.
+inline constexpr std::size_t kLargestFile = 1 << 22;
 
 // toml++ destroys nested tables recursively, and a dotted name a.a.a... nests without limit. Each dot nests once at
-// most, so this many cannot exhaust the stack; a printed scene has a few hundred.
+// most, so this many cannot exhaust the stack. Decimal points do not count, nor do lines that begin an entry of
+// camera.keys; a dotted name that is written to look like numbers still has every second dot counted.
 inline constexpr std::ptrdiff_t kMostDots = 4000;
 
 // An error and where it is: line and column (in code points) from 1.

@@ -73,6 +73,9 @@ Fault bad_value(const Key& key, std::string_view problem, const toml::node& node
     return fault_at(node.source().begin, complaint(key, problem, node_text(node)));
 }
 
+MaybeFault assign_node(const Key& key, const toml::node& node);
+MaybeFault read_camera_key(CameraKey& entry, const toml::table& table, std::size_t index);
+
 // Stores a node into a key's field; one overload a type of field.
 struct Assign {
     const Key& key;
@@ -141,6 +144,25 @@ struct Assign {
         return std::nullopt;
     }
 
+    MaybeFault operator()(std::vector<CameraKey>* field) const {
+        const auto* array = node.as_array();
+        if (!array) return wrong_type(key, node);
+        if (array->size() > kMostCameraKeys) return bad_value(key, "too many", node);
+        std::vector<CameraKey> entries(array->size());
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            const auto* table = array->get(i)->as_table();
+            if (!table) return wrong_type(key, *array->get(i));
+            if (auto fault = read_camera_key(entries[i], *table, i)) return fault;
+            if (const auto problem = time_problem(entries, i)) {
+                return fault_at(table->get("time_s")->source().begin,
+                                fmt::format("{}[{}].time_s: {} is {}, allowed: {}", key.full_name(), i,
+                                            number_text(entries[i].time_s), *problem, allowed_text(key)));
+            }
+        }
+        *field = std::move(entries);
+        return std::nullopt;
+    }
+
   private:
     // An integer or a float, of the key itself or of a component of its vector.
     MaybeFault assign_number(double& field, const toml::node& number) const {
@@ -153,6 +175,27 @@ struct Assign {
 };
 
 MaybeFault assign_node(const Key& key, const toml::node& node) { return std::visit(Assign{key, node}, key.field); }
+
+// What the table gives, and no more, becomes part of the entry.
+MaybeFault read_camera_key(CameraKey& entry, const toml::table& table, std::size_t index) {
+    Camera values;
+    const std::vector<Section> sections{describe_camera_key(entry, values, index)};
+    const Section& section = sections.front();
+    for (auto&& [name, node] : table) {
+        const Key* key = find_key(section, name.str());
+        if (!key) return fault_at(name.source().begin, unknown_key(sections, section.name, name.str()));
+        if (auto fault = assign_node(*key, node)) return fault;
+    }
+    if (!table.contains("time_s")) {
+        return fault_at(table.source().begin, fmt::format("{}: has no time_s, allowed: {}", section.name,
+                                                          "when it is, in seconds, and any of position, look_at, "
+                                                          "fov_deg"));
+    }
+    if (table.contains("position")) entry.position = values.position;
+    if (table.contains("look_at")) entry.look_at = values.look_at;
+    if (table.contains("fov_deg")) entry.fov_deg = values.fov_deg;
+    return std::nullopt;
+}
 
 // One name with what the file says about it. node is null for a section of unknown name.
 struct Entry {

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
 #include <string>
 
+#include "src/scene/camera_path.h"
 #include "src/scene/key_text.h"
 #include "src/scene/keys.h"
 
@@ -12,11 +15,19 @@ namespace strata::scene {
 
 namespace {
 
-void check_fields(Scene scene) {
-    for (const Section& section : describe(scene)) {
-        for (const Key& key : section.keys) {
-            if (const auto problem = field_problem(key)) throw SceneError(complaint(key, *problem, value_text(key)));
+void check_keys(const Section& section) {
+    for (const Key& key : section.keys) {
+        if (const auto problem = field_problem(key)) {
+            throw SceneError(complaint(key, *problem, excerpt(value_text(key))));
         }
+    }
+}
+
+void check_fields(Scene scene) {
+    for (const Section& section : describe(scene)) check_keys(section);
+    for (std::size_t i = 0; i < scene.camera.keys.size(); ++i) {
+        CameraKey& entry = scene.camera.keys[i];
+        check_keys(describe_camera_key(entry, scene.camera, i));
     }
 }
 
@@ -25,14 +36,19 @@ std::string point_text(const glm::dvec3& p) {
 }
 
 void check_view(const Camera& camera) {
-    if (glm::distance(camera.position, camera.look_at) >= kShortestDirection) return;
-    throw SceneError(fmt::format("camera.look_at: is the same point as camera.position ({}), allowed: any other point",
-                                 point_text(camera.look_at)));
+    const CameraPath path(camera);
+    const auto time = path.meeting_time(kShortestDirection);
+    if (!time) return;
+    const std::string when = path.moves() ? fmt::format(" at {} s", number_text(*time)) : std::string();
+    throw SceneError(
+        fmt::format("camera.look_at: is the same point as camera.position{} ({}), allowed: any other point", when,
+                    point_text(path.at(*time).look_at)));
 }
 
 void check_octaves(const Scene& scene) {
     const Surface& surface = scene.surface;
-    const double farthest = reach(scene);
+    const double farthest = noise_reach(scene);
+    const std::string drifted = farthest > reach(scene) ? ", with surface.drift," : "";
     double amplitude = surface.amplitude;
     double frequency = surface.frequency;
     for (int k = 0; k < surface.octaves && amplitude != 0.0; ++k) {
@@ -44,11 +60,13 @@ void check_octaves(const Scene& scene) {
             throw SceneError(
                 fmt::format("surface.octaves: octave {} of {} is too fine for double precision ({:.3g} lattice cells a "
                             "surface unit, "
-                            "seen up to {:.3g} surface units from surface.origin, exceed 2^50 cells), allowed: "
+                            "seen up to {:.3g} surface units from surface.origin{} exceed 2^50 cells), allowed: "
                             "{}surface.frequency or "
                             "{}",
-                            k + 1, surface.octaves, frequency, farthest, octaves,
-                            bounded ? "surface.bound_size" : "camera.far, or a camera nearer to surface.origin"));
+                            k + 1, surface.octaves, frequency, farthest, drifted.empty() ? "," : drifted, octaves,
+                            !drifted.empty() ? "surface.drift, or an earlier frame"
+                            : bounded        ? "surface.bound_size"
+                                             : "camera.far, or a camera nearer to surface.origin"));
         }
         amplitude *= surface.gain;
         frequency *= surface.lacunarity;
@@ -62,8 +80,18 @@ double reach(const Scene& scene) {
     if (surface.kind == SurfaceKind::isosurface) {
         return surface.bound == BoundKind::ball ? surface.bound_size.x : glm::length(surface.bound_size);
     }
-    const double along_rays = (glm::distance(scene.camera.position, surface.origin) + scene.camera.far) / surface.scale;
+    double eye = 0.0;
+    for (const glm::dvec3& x : CameraPath(scene.camera).position_hull(open_shutter(scene))) {
+        eye = std::max(eye, glm::distance(x, surface.origin));
+    }
+    const double along_rays = (eye + scene.camera.far) / surface.scale;
     return surface.kind == SurfaceKind::planet ? along_rays + surface.radius : along_rays;
+}
+
+double noise_reach(const Scene& scene) {
+    const TimeSpan open = open_shutter(scene);
+    const double longest = std::max(std::abs(open.first), std::abs(open.last));
+    return reach(scene) + glm::length(scene.surface.drift) * longest;
 }
 
 void validate(const Scene& scene, std::string_view source_name) {

@@ -68,6 +68,7 @@ struct OctaveCache {
     std::size_t count = 0;
 };
 
+// x is where the ray is; the noise is evaluated elsewhere when it drifts.
 template <SurfaceKind kKind>
 HWY_INLINE Evaluation evaluate(const TracePlan& plan, const Field& field, const Packet& packet, const WidePoint& x,
                                const WidePoint& direction, OctaveCache& cache, TraceCounters& counters) {
@@ -76,6 +77,7 @@ HWY_INLINE Evaluation evaluate(const TracePlan& plan, const Field& field, const 
     const FloatVec hint = hn::Load(d, packet.hint), span = hn::Mul(hint, hn::Load(d, packet.speed));
     const FloatVec dx = to_float(direction.x), dy = to_float(direction.y), dz = to_float(direction.z);
     const Base base = base_at<kKind>(field, x, direction);
+    const WidePoint noise_x = field.drifts() ? add(x, load_point(packet.noise_shift)) : x;
     Evaluation at{base.value, hn::Zero(d), base.slope, base.slope, hn::Zero(d), no_bounds(), {}, hn::Zero(dw)};
     at.error = hn::MulAdd(hn::Abs(base.value), hn::Set(d, plan.error_relative), hn::Set(d, plan.error_absolute));
     auto open = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
@@ -89,7 +91,7 @@ HWY_INLINE Evaluation evaluate(const TracePlan& plan, const Field& field, const 
         at.rest = hn::IfThenElse(hn::AndNot(wanted, open), rest, at.rest);
         open = wanted;
         if (hn::AllFalse(d, open)) break;
-        const OctaveSample n = sample_octave<kIsPlanar<kKind>>(octave, x, packet.reach);
+        const OctaveSample n = sample_octave<kIsPlanar<kKind>>(octave, noise_x, packet.reach);
         FloatVec slope = hn::MulAdd(n.dx, dx, hn::Mul(n.dz, dz));
         if constexpr (!kIsPlanar<kKind>) slope = hn::MulAdd(n.dy, dy, slope);
         const FloatVec amplitude = hn::IfThenElseZero(open, hn::Set(d, octave.amplitude));
@@ -122,7 +124,9 @@ HWY_INLINE void settle_doubt(const Field& field, const TracePlan& plan, Packet& 
     hn::Store(hn::IfThenElseZero(doubtful, hn::Set(d, 1.0f)), d, flag);
     for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
         if (flag[lane] == 0.0f) continue;
-        f[lane] = static_cast<float>(field.value({point[0][lane], point[1][lane], point[2][lane]}));
+        const auto& shift = packet.noise_shift;
+        f[lane] = static_cast<float>(field.value({point[0][lane], point[1][lane], point[2][lane]},
+                                                 {shift[0][lane], shift[1][lane], shift[2][lane]}));
         error[lane] = std::abs(f[lane]) * plan.error_relative;
         const std::size_t octaves = field.octaves().size();
         packet.evaluations[lane] += static_cast<std::uint32_t>(octaves);

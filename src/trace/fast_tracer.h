@@ -25,8 +25,13 @@ class FastTracer {
     // A ray's hit depends on that ray alone, whatever its neighbours in the batch.
     void trace(std::span<const Ray> rays, std::span<Hit> hits, TraceCounters& counters) const;
 
-    // Gradients of f (before the intersection with a bound) from every octave.
-    void gradients(std::span<const glm::dvec3> x, std::span<glm::vec3> gradient, TraceCounters& counters) const;
+    // Gradients of f (before the intersection with a bound) from every octave. noise_shift: of each point, or empty
+    // where nothing drifts.
+    void gradients(std::span<const glm::dvec3> x, std::span<const glm::dvec3> noise_shift,
+                   std::span<glm::vec3> gradient, TraceCounters& counters) const;
+    void gradients(std::span<const glm::dvec3> x, std::span<glm::vec3> gradient, TraceCounters& counters) const {
+        gradients(x, {}, gradient, counters);
+    }
 
   private:
     const Field& field_;

@@ -96,8 +96,9 @@ double Field::base(const glm::dvec3& x) const {
     return 0.0;
 }
 
-double Field::octave(std::size_t k, const glm::dvec3& x) const {
+double Field::octave(std::size_t k, const glm::dvec3& at, const glm::dvec3& shift) const {
     const noise::Octave& octave = octaves_[k];
+    const glm::dvec3 x = at + shift;
     if (is_planar_noise()) {
         const auto p = noise::octave_position<2>(octave, {x.x, x.z});
         return octave.amplitude * noise::reference_value<2>(octave.key, noise::split_position<2>(p));
@@ -106,9 +107,9 @@ double Field::octave(std::size_t k, const glm::dvec3& x) const {
     return octave.amplitude * noise::reference_value<3>(octave.key, noise::split_position<3>(p));
 }
 
-double Field::value(const glm::dvec3& x) const {
+double Field::value(const glm::dvec3& x, const glm::dvec3& shift) const {
     double f = base(x);
-    for (std::size_t k = 0; k < octaves_.size(); ++k) f -= octave(k, x);
+    for (std::size_t k = 0; k < octaves_.size(); ++k) f -= octave(k, x, shift);
     return f;
 }
 
@@ -120,8 +121,9 @@ glm::dvec3 Field::base_gradient(const glm::dvec3& x) const {
     return radius > 0.0 ? x / radius : kUp;
 }
 
-glm::dvec3 Field::gradient(const glm::dvec3& x) const {
-    glm::dvec3 gradient = base_gradient(x);
+glm::dvec3 Field::gradient(const glm::dvec3& at, const glm::dvec3& shift) const {
+    glm::dvec3 gradient = base_gradient(at);
+    const glm::dvec3 x = at + shift;
     for (const noise::Octave& octave : octaves_) {
         const double slope = octave.amplitude * octave.frequency;
         if (is_planar_noise()) {

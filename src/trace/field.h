@@ -1,4 +1,5 @@
-// A surface in its own coordinates: f(x) = base(x) - sum_k a_k n_k(w_k x + o_k), solid where f <= 0.
+// A surface in its own coordinates: f(x) = base(x) - sum_k a_k n_k(w_k (x + shift) + o_k), solid where f <= 0. The
+// shift is that of a drifting noise at some time, else zero.
 //
 //   terrain       base = y           noise in 2-D at (x, z)
 //   hyperterrain  base = y           noise in 3-D
@@ -40,18 +41,24 @@ class Field {
     // Upper bound of |grad f|.
     double lipschitz() const { return lipschitz_; }
 
+    // Whether the noise moves through the surface.
+    bool drifts() const { return surface_.drift != glm::dvec3(0.0); }
+
+    // -drift * t, t in seconds; exactly zero without drift.
+    glm::dvec3 noise_shift(double t) const { return drifts() ? -t * surface_.drift : glm::dvec3(0.0); }
+
     double base(const glm::dvec3& x) const;
 
-    // a_k n_k(w_k x + o_k).
-    double octave(std::size_t k, const glm::dvec3& x) const;
+    // a_k n_k(w_k (x + shift) + o_k).
+    double octave(std::size_t k, const glm::dvec3& x, const glm::dvec3& shift = glm::dvec3(0.0)) const;
 
     // f before the intersection with a bound.
-    double value(const glm::dvec3& x) const;
+    double value(const glm::dvec3& x, const glm::dvec3& shift = glm::dvec3(0.0)) const;
 
     glm::dvec3 base_gradient(const glm::dvec3& x) const;
 
     // Gradient of value(), not normalised.
-    glm::dvec3 gradient(const glm::dvec3& x) const;
+    glm::dvec3 gradient(const glm::dvec3& x, const glm::dvec3& shift = glm::dvec3(0.0)) const;
 
     // The part of the ray origin + s direction, s in [0, limit), outside of which f > 0. direction is of unit length.
     Interval clip(const glm::dvec3& origin, const glm::dvec3& direction, double limit) const;

@@ -15,7 +15,7 @@ namespace strata::trace::HWY_NAMESPACE {
 inline constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(float);
 
 struct GradientBlock {
-    alignas(HWY_MAX_BYTES) double x[3][kLanes] = {};
+    alignas(HWY_MAX_BYTES) double x[3][kLanes] = {};  // of the noise
     alignas(HWY_MAX_BYTES) float gradient[3][kLanes] = {};
     double reach = 0.0;
 };
@@ -39,18 +39,19 @@ HWY_INLINE void subtract_octaves(const TracePlan& plan, GradientBlock& block) {
     hn::Store(gz, d, block.gradient[2]);
 }
 
-void Gradients(const Field& field, const TracePlan& plan, std::span<const glm::dvec3> x, std::span<glm::vec3> gradient,
-               TraceCounters& counters) {
+void Gradients(const Field& field, const TracePlan& plan, std::span<const glm::dvec3> x,
+               std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient, TraceCounters& counters) {
     const std::size_t lanes = hn::Lanes(FloatTag());
     for (std::size_t begin = 0; begin < x.size(); begin += lanes) {
         const std::size_t count = std::min(lanes, x.size() - begin);
         GradientBlock block;
         for (std::size_t i = 0; i < count; ++i) {
             const glm::dvec3 base = field.base_gradient(x[begin + i]);
+            const glm::dvec3 at = noise_shift.empty() ? x[begin + i] : x[begin + i] + noise_shift[begin + i];
             for (int a = 0; a < 3; ++a) {
-                block.x[a][i] = x[begin + i][a];
+                block.x[a][i] = at[a];
                 block.gradient[a][i] = static_cast<float>(base[a]);
-                block.reach = std::max(block.reach, std::abs(x[begin + i][a]));
+                block.reach = std::max(block.reach, std::abs(at[a]));
             }
         }
         if (field.is_planar_noise()) {
@@ -74,9 +75,9 @@ namespace strata::trace {
 
 HWY_EXPORT(Gradients);
 
-void FastTracer::gradients(std::span<const glm::dvec3> x, std::span<glm::vec3> gradient,
-                           TraceCounters& counters) const {
-    HWY_DYNAMIC_DISPATCH(Gradients)(field_, plan_, x, gradient, counters);
+void FastTracer::gradients(std::span<const glm::dvec3> x, std::span<const glm::dvec3> noise_shift,
+                           std::span<glm::vec3> gradient, TraceCounters& counters) const {
+    HWY_DYNAMIC_DISPATCH(Gradients)(field_, plan_, x, noise_shift, gradient, counters);
 }
 
 }  // namespace strata::trace

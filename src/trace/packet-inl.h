@@ -24,6 +24,7 @@ inline constexpr std::size_t kNoRay = std::numeric_limits<std::size_t>::max();
 struct Packet {
     alignas(HWY_MAX_BYTES) double origin[3][kMaxLanes] = {};
     alignas(HWY_MAX_BYTES) double direction[3][kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) double noise_shift[3][kMaxLanes] = {};  // of drifting noise
     alignas(HWY_MAX_BYTES) double s[kMaxLanes] = {};
     alignas(HWY_MAX_BYTES) double s_outside[kMaxLanes] = {};
     alignas(HWY_MAX_BYTES) double end[kMaxLanes] = {};
@@ -37,7 +38,7 @@ struct Packet {
     std::uint32_t step_limit[kMaxLanes] = {};
     std::size_t ray[kMaxLanes] = {};
     bool enters_bound[kMaxLanes] = {};
-    double reach = 0.0;  // bound of |x| on every axis over all rays taken so far
+    double reach = 0.0;  // bound of |x + noise_shift| on every axis over all rays taken so far
     std::size_t active_count = 0;
 };
 
@@ -52,7 +53,8 @@ HWY_INLINE void take_ray(Packet& packet, std::size_t lane, const Ray& ray, std::
     for (int a = 0; a < 3; ++a) {
         packet.origin[a][lane] = ray.origin[a];
         packet.direction[a][lane] = ray.direction[a];
-        packet.reach = std::max(packet.reach, std::abs(ray.origin[a]) + inside.end);
+        packet.noise_shift[a][lane] = ray.noise_shift[a];
+        packet.reach = std::max(packet.reach, std::abs(ray.origin[a] + ray.noise_shift[a]) + inside.end);
     }
     packet.s[lane] = packet.s_outside[lane] = inside.begin;
     packet.end[lane] = inside.end;
@@ -77,6 +79,10 @@ HWY_INLINE void drop_lane(Packet& packet, std::size_t lane) {
 
 HWY_INLINE WidePoint load_point(const double (&from)[3][kMaxLanes]) {
     return {load_wide(from[0]), load_wide(from[1]), load_wide(from[2])};
+}
+
+HWY_INLINE WidePoint add(const WidePoint& a, const WidePoint& b) {
+    return {add(a.x, b.x), add(a.y, b.y), add(a.z, b.z)};
 }
 
 HWY_INLINE WidePoint point_at(const WidePoint& origin, const WidePoint& direction, const Wide& s) {

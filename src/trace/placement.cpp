@@ -42,12 +42,14 @@ glm::dmat3 Placement::orientation(double t) const {
     return rotation_about(spin_axis_, spin_rate_ * t) * rotation_;
 }
 
-Ray Placement::to_local(const glm::dmat3& orientation, const Ray& world) const {
+Ray Placement::to_local(const glm::dmat3& orientation, const Ray& world, const glm::dvec3& noise_shift) const {
     Ray local;
     local.origin = point_to_local(orientation, world.origin);
     local.direction = glm::normalize(direction_to_local(orientation, world.direction));
+    local.noise_shift = noise_shift;
     local.limit = world.limit / scale_;
-    local.delta0 = std::max(world.delta0 / scale_, kLeastDelta * glm::length(local.origin));
+    const double size = glm::length(local.origin) + glm::length(noise_shift);
+    local.delta0 = std::max(world.delta0 / scale_, kLeastDelta * size);
     local.delta_slope = std::max(world.delta_slope, kLeastDelta);
     local.step_limit = world.step_limit;
     return local;

@@ -31,8 +31,10 @@ class Placement {
     static glm::dvec3 direction_to_local(const glm::dmat3& orientation, const glm::dvec3& d) { return d * orientation; }
 
     // A ray of the world, with limit and deltas in world units, in the surface's coordinates: s_local = s_world /
-    // scale. Deltas are raised to what double can tell along the ray.
-    Ray to_local(const glm::dmat3& orientation, const Ray& world) const;
+    // scale. noise_shift is the field's at the ray's time. Deltas are raised to what double can tell along the ray, for
+    // the ray and for where its noise is evaluated.
+    Ray to_local(const glm::dmat3& orientation, const Ray& world,
+                 const glm::dvec3& noise_shift = glm::dvec3(0.0)) const;
 
   private:
     glm::dvec3 origin_;

@@ -17,6 +17,7 @@ inline constexpr std::uint32_t kStepLimit = 1u << 20;
 struct Ray {
     glm::dvec3 origin{0.0};
     glm::dvec3 direction{0.0, 0.0, 1.0};
+    glm::dvec3 noise_shift{0.0};  // the noise is evaluated at x + noise_shift: Field::noise_shift at the ray's time
     double limit = 0.0;
     double delta0 = 0.0;
     double delta_slope = 0.0;

@@ -11,7 +11,7 @@ Hit trace_reference(const Field& field, const Ray& ray) {
     hit.s_outside = s;
     while (s < inside.end) {
         ++hit.steps;
-        const double f = field.value(ray.origin + s * ray.direction);
+        const double f = field.value(ray.origin + s * ray.direction, ray.noise_shift);
         hit.noise_evaluations += static_cast<std::uint32_t>(field.octaves().size());
         if (f <= 0.0) {
             hit.state = HitState::hit;

@@ -13,7 +13,7 @@ inline constexpr double kShadowLift = 0x1p-48;
 // start in the surface it left, with the tolerance of that point. normal and to_light have unit length.
 inline Ray shadow_ray(const Ray& seen, const Hit& hit, const glm::dvec3& normal, const glm::dvec3& to_light) {
     Ray ray = seen;
-    const double size = glm::length(seen.origin) + hit.s;
+    const double size = glm::length(seen.origin) + glm::length(seen.noise_shift) + hit.s;
     ray.origin += hit.s_outside * seen.direction + kShadowLift * size * normal;
     ray.delta0 += seen.delta_slope * hit.s;
     ray.direction = to_light;

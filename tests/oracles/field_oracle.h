@@ -5,6 +5,8 @@
 //   hyperterrain  y - sum a_k n(w_k p + o_k)
 //   planet        |p| - R - sum a_k n(w_k p + o_k)
 //   isosurface    threshold - sum a_k n(w_k p + o_k), within a ball |p| <= r or a box |p_i| <= half_i
+//
+// With a drift d the noise n at time t is taken at p - d t in place of p; all else stays.
 #pragma once
 
 #include <algorithm>
@@ -35,6 +37,8 @@ struct Shape {
     double threshold = 0.0;  // isosurface
     Container container = Container::none;
     Vec container_size{};  // ball: radius first; box: half sizes
+    Vec drift{};           // of the noise, a second
+    double time = 0.0;     // seconds
 };
 
 struct OracleOctave {
@@ -81,7 +85,8 @@ class FieldOracle {
     Real octave(std::size_t k, const Vec& p) const {
         const OracleOctave& o = octaves_[k];
         const auto at = [&](std::size_t axis, std::size_t lattice_axis) {
-            return Real(o.frequency) * Real(p[axis]) + Real(o.offset[lattice_axis]);
+            const Real drifted = Real(p[axis]) - Real(shape_.drift[axis]) * Real(shape_.time);
+            return Real(o.frequency) * drifted + Real(o.offset[lattice_axis]);
         };
         if (shape_.kind == Kind::terrain) return Real(o.amplitude) * noise2<Real>(o.key, at(0, 0), at(2, 1));
         return Real(o.amplitude) * noise3<Real>(o.key, at(0, 0), at(1, 1), at(2, 2));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "src/filter/bspline.h"
@@ -187,7 +188,28 @@ TEST_CASE("a scene's settings carry over, with the frame's time") {
     CHECK(taken.N == 7);
     CHECK(taken.m == 3);
     CHECK(taken.time_order == 2);
-    CHECK(taken.seed == 99);
     CHECK(taken.shutter.frame_time_s == 0.4);
     CHECK(taken.shutter.open_s == 0.033);
+}
+
+TEST_CASE("each frame has sample positions of its own, and frame 0 those of the scene's seed") {
+    scene::Scene scene;
+    scene.sampling.seed = 99;
+    CHECK(estimator_settings(scene).seed == 99);
+    std::set<std::uint64_t> seeds;
+    for (const std::uint64_t seed : {0ull, 1ull, 99ull, 0x7fff'ffff'ffff'ffffull}) {
+        scene.sampling.seed = seed;
+        for (int frame = 0; frame < 1000; ++frame) {
+            scene.shutter.frame = frame;
+            CHECK(estimator_settings(scene).seed == estimator_settings(scene).seed);
+            seeds.insert(estimator_settings(scene).seed);
+        }
+    }
+    CHECK(seeds.size() == 4000);
+    // Neighbouring frames' positions in a pixel have nothing in common: of N x N in the same strata, none stays.
+    scene.shutter.frame = 7;
+    const auto here = Estimator(estimator_settings(scene)).probe_samples(3, 4);
+    scene.shutter.frame = 8;
+    const auto next = Estimator(estimator_settings(scene)).probe_samples(3, 4);
+    for (std::size_t i = 0; i < here.size(); ++i) CHECK(here[i].u != next[i].u);
 }

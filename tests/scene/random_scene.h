@@ -8,6 +8,7 @@
 #include <random>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "src/scene/keys.h"
 
@@ -33,7 +34,27 @@ inline std::string random_text(Random& random) {
     return text;
 }
 
+inline void randomise(const Key& key, Random& random);
+
+// Times increase; every part is there or not.
+inline std::vector<CameraKey> random_camera_keys(Random& random) {
+    std::vector<CameraKey> entries(random() % 6);
+    double time = random_number({-1e3, 1e3}, random);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        CameraKey& entry = entries[i];
+        Camera rest;
+        for (const Key& key : describe_camera_key(entry, rest, i).keys) randomise(key, random);
+        entry.time_s = time;
+        time += 2e-6 + std::abs(random_number({0.0, 10.0}, random));
+        if (random() % 2 == 0) entry.position = rest.position;
+        if (random() % 2 == 0) entry.look_at = rest.look_at;
+        if (random() % 2 == 0) entry.fov_deg = rest.fov_deg;
+    }
+    return entries;
+}
+
 inline void randomise(const Key& key, Random& random) {
+    if (auto* entries = std::get_if<std::vector<CameraKey>*>(&key.field)) **entries = random_camera_keys(random);
     if (auto* flag = std::get_if<bool*>(&key.field)) **flag = random() % 2 == 0;
     if (auto* count = std::get_if<int*>(&key.field)) **count = static_cast<int>(random_number(key.range, random));
     if (auto* seed = std::get_if<std::uint64_t*>(&key.field)) **seed = random() % 4 == 0 ? kLargestSeed : random() >> 1;

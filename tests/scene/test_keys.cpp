@@ -170,7 +170,9 @@ TEST_CASE("a wrong type is refused for every key at its line and column") {
         if (!text) check_refused(key, "\"words\"", "wrong type, a string (\"words\")");
         if (!flag) check_refused(key, "true", "wrong type, true or false (true)");
         if (text || flag || vector) check_refused(key, "3", "wrong type, an integer (3)");
-        if (!vector) check_refused(key, "[1, 2, 3]", "wrong type (an array of 3)");
+        const bool entries = std::holds_alternative<std::vector<CameraKey>*>(key.field);
+        if (!vector && !entries) check_refused(key, "[1, 2, 3]", "wrong type (an array of 3)");
+        if (entries) check_refused(key, "[1, 2, 3]", "wrong type, an integer (1)", 1);
         check_refused(key, "1979-05-27", "wrong type (a date or time)");
         check_refused(key, "{ x = 1 }", "wrong type (a table)");
     }

@@ -51,8 +51,8 @@ TEST_CASE("an override changes that key alone") {
 
 TEST_CASE("an override that is none is refused with the option, the key and what was meant") {
     CHECK(error_of("camera.fov=35") ==
-          "--set camera.fov=35: camera.fov: unknown key, allowed in [camera]: position, look_at, up, fov_deg, far, did "
-          "you mean 'camera.fov_deg'?");
+          "--set camera.fov=35: camera.fov: unknown key, allowed in [camera]: position, look_at, up, fov_deg, far, "
+          "interpolation, keys, did you mean 'camera.fov_deg'?");
     CHECK(error_of("camrea.fov_deg=35") ==
           "--set camrea.fov_deg=35: camrea.fov_deg: unknown key, allowed outside sections: title, image; sections: " +
               kSections + ", did you mean 'camera.fov_deg'?");

@@ -30,6 +30,15 @@ std::vector<std::string> bits_of(Scene scene) {
             if (auto* choice = std::get_if<Choice>(&key.field)) text = std::to_string(choice->get());
             if (auto* v = std::get_if<glm::dvec3*>(&key.field))
                 text = number((*v)->x) + number((*v)->y) + number((*v)->z);
+            if (auto* entries = std::get_if<std::vector<CameraKey>*>(&key.field)) {
+                const auto triple = [&](const std::optional<glm::dvec3>& x) {
+                    return x ? number(x->x) + number(x->y) + number(x->z) : std::string("none");
+                };
+                for (const CameraKey& entry : **entries) {
+                    text += number(entry.time_s) + triple(entry.position) + triple(entry.look_at) +
+                            (entry.fov_deg ? number(*entry.fov_deg) : std::string("none"));
+                }
+            }
             bits.push_back(key.full_name() + ":" + text);
         }
     }

@@ -5,9 +5,26 @@
 
 #include "src/scene/builtin.h"
 #include "src/scene/toml_reader.h"
+#include "src/trace/reference_tracer.h"
 #include "tests/trace/ray_families.h"
 
 namespace strata::trace_test {
+
+// What both tracers promise, of the reference one.
+inline void check_reference(scene::Surface surface, std::size_t count, Random& random) {
+    surface.octaves = std::min(surface.octaves, 4);  // its steps shrink with the sum of slopes
+    const trace::Field field(surface);
+    const trace::FastTracer tracer(field);
+    RayFamilies families(field, tracer, log_uniform(random, 1e-3, 5e-3));
+    const std::vector<trace::Ray> rays = families.make(random, count);
+    std::vector<trace::Hit> hits(rays.size());
+    trace::TraceCounters counters;
+    trace::trace_reference(field, rays, hits, counters);
+    const Judgement found = judge(surface, rays, hits, families.times());
+    CHECK(found.missed == 0);
+    CHECK(found.unfounded == 0);
+    CHECK(found.unresolved == 0);
+}
 
 inline void check_surface(const scene::Surface& surface, std::size_t count, Random& random) {
     const trace::Field field(surface);
@@ -18,7 +35,7 @@ inline void check_surface(const scene::Surface& surface, std::size_t count, Rand
     std::vector<trace::Hit> hits(rays.size());
     trace::TraceCounters counters;
     tracer.trace(rays, hits, counters);
-    const Judgement found = judge(surface, rays, hits);
+    const Judgement found = judge(surface, rays, hits, families.times());
     MESSAGE("kind " << static_cast<int>(surface.kind) << ", " << surface.octaves << " octaves, " << found.rays
                     << " rays, " << found.hits << " hits, thickest stretch passed over " << found.thickest
                     << " delta (bound 1), undecided " << found.undecided << ", evaluations a ray "
@@ -33,6 +50,17 @@ inline void check_surface(const scene::Surface& surface, std::size_t count, Rand
     CHECK(found.undecided * 1000 <= found.rays);
     CHECK(found.hits * 10 > found.rays);
     CHECK(families.counts().outer * 2 <= found.rays);
+}
+
+// Noise that moves through surfaces of every kind, each ray at a time of its own; by both tracers.
+inline void check_drifting_surfaces(std::size_t random_scenes, std::size_t rays_each) {
+    Random random(20060102);
+    for (std::size_t i = 0; i < random_scenes; ++i) {
+        scene::Surface surface = random_drifting_surface(random);
+        surface.kind = static_cast<scene::SurfaceKind>(i % 4);
+        check_surface(surface, rays_each, random);
+        check_reference(surface, rays_each / 20, random);
+    }
 }
 
 // The surfaces of the built-in scenes, then random ones.

@@ -53,7 +53,14 @@ inline scene::Surface random_surface(Random& random) {
     return surface;
 }
 
-inline oracle::Shape shape_of(const scene::Surface& s) {
+// The same with noise that moves through it.
+inline scene::Surface random_drifting_surface(Random& random) {
+    scene::Surface surface = random_surface(random);
+    surface.drift = log_uniform(random, 1e-3, 1e2) * unit_vector(random);
+    return surface;
+}
+
+inline oracle::Shape shape_of(const scene::Surface& s, double time = 0.0) {
     oracle::Shape shape;
     shape.kind = static_cast<oracle::Kind>(s.kind);
     shape.octaves = s.octaves;
@@ -64,6 +71,8 @@ inline oracle::Shape shape_of(const scene::Surface& s) {
     shape.seed = s.seed;
     shape.radius = s.radius;
     shape.threshold = s.threshold;
+    shape.drift = {s.drift.x, s.drift.y, s.drift.z};
+    shape.time = time;
     if (s.kind == scene::SurfaceKind::isosurface) {
         shape.container = s.bound == scene::BoundKind::ball ? oracle::Container::ball : oracle::Container::box;
         shape.container_size = {s.bound_size.x, s.bound_size.y, s.bound_size.z};
@@ -86,6 +95,8 @@ class RayFamilies {
     std::vector<trace::Ray> make(Random& random, std::size_t count) {
         std::vector<trace::Ray> rays;
         while (rays.size() < count) {
+            // A drifting field is another one at each ray's time.
+            time_ = field_.drifts() ? uniform(random, -50.0, 50.0) : 0.0;
             const trace::Ray seen = outer_ray(random);
             rays.push_back(seen);
             rays.push_back(make_ray(near_point(random), unit_vector(random)));
@@ -93,6 +104,7 @@ class RayFamilies {
             rays.push_back(silhouette_ray(random, seen));
             rays.push_back(shadow_ray(random, seen));
             ++counts_.inner;
+            times_.resize(rays.size(), time_);
         }
         counts_.outer = rays.size() - counts_.inner - counts_.grazing - counts_.silhouette - counts_.shadow;
         return rays;
@@ -100,9 +112,18 @@ class RayFamilies {
 
     const FamilyCounts& counts() const { return counts_; }
 
+    // Of the rays made so far.
+    const std::vector<double>& times() const { return times_; }
+
   private:
     trace::Ray make_ray(const glm::dvec3& origin, const glm::dvec3& direction) const {
-        return {.origin = origin, .direction = direction, .limit = 40.0, .delta0 = 0.0, .delta_slope = delta_slope_};
+        const glm::dvec3 shift = field_.noise_shift(time_);
+        return {.origin = origin,
+                .direction = direction,
+                .noise_shift = shift,
+                .limit = 40.0,
+                .delta0 = 0x1p-50 * glm::length(shift),
+                .delta_slope = delta_slope_};
     }
 
     // About the surface, within a few amplitudes of it.
@@ -139,7 +160,7 @@ class RayFamilies {
         const trace::Hit found = hit(seen);
         if (found.state != trace::HitState::hit) return outer_ray(random);
         const glm::dvec3 x = seen.origin + found.s * seen.direction;
-        const glm::dvec3 normal = glm::normalize(field_.gradient(x));
+        const glm::dvec3 normal = glm::normalize(field_.gradient(x, seen.noise_shift));
         const glm::dvec3 tangent = glm::normalize(glm::cross(normal, unit_vector(random)));
         ++counts_.grazing;
         const double lift = log_uniform(random, 1e-7, 1e-2) * (random() % 3 == 0 ? -1.0 : 1.0);
@@ -165,7 +186,8 @@ class RayFamilies {
     trace::Ray shadow_ray(Random& random, const trace::Ray& seen) {
         const trace::Hit found = hit(seen);
         if (found.state != trace::HitState::hit || found.on_bound) return outer_ray(random);
-        const glm::dvec3 normal = glm::normalize(field_.gradient(seen.origin + found.s * seen.direction));
+        const glm::dvec3 normal =
+            glm::normalize(field_.gradient(seen.origin + found.s * seen.direction, seen.noise_shift));
         const glm::dvec3 light = unit_vector(random);
         ++counts_.shadow;
         return trace::shadow_ray(seen, found, normal, glm::dot(light, normal) > 0.0 ? light : -light);
@@ -174,6 +196,8 @@ class RayFamilies {
     const trace::Field& field_;
     const trace::FastTracer& tracer_;
     double delta_slope_;
+    double time_ = 0.0;  // of the rays being made
+    std::vector<double> times_;
     FamilyCounts counts_;
 };
 
@@ -184,12 +208,14 @@ struct Judgement {
     glm::dvec3 origin{0.0}, direction{0.0};  // of the last violation, to replay
 };
 
+// times: of each ray, or empty for time 0.
 inline Judgement judge(const scene::Surface& surface, std::span<const trace::Ray> rays,
-                       std::span<const trace::Hit> hits) {
-    const oracle::FieldOracle field(shape_of(surface));
+                       std::span<const trace::Hit> hits, std::span<const double> times = {}) {
+    oracle::FieldOracle field(shape_of(surface));
     Judgement total;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const trace::Ray& ray = rays[i];
+        if (!times.empty()) field = oracle::FieldOracle(shape_of(surface, times[i]));
         const auto delta = [&](double t) { return ray.delta0 + ray.delta_slope * t; };
         const bool hit = hits[i].state == trace::HitState::hit;
         ++total.rays;
