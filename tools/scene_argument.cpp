@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <filesystem>
@@ -96,7 +97,7 @@ std::string shown_name(const KeyOption& option) {
 
 }  // namespace
 
-void SceneArgument::add_to(CLI::App& command, const char* name) {
+void SceneArgument::add_to(CLI::App& command, const char* name, std::span<const std::string_view> own) {
     command
         .add_option(name, scene_, "A scene file, a built-in scene (`strata scenes`), or a picture that strata wrote")
         ->capture_default_str();
@@ -113,6 +114,7 @@ void SceneArgument::add_to(CLI::App& command, const char* name) {
     key_values_.resize(kKeyOptions.size());
     for (std::size_t i = 0; i < kKeyOptions.size(); ++i) {
         const KeyOption& option = kKeyOptions[i];
+        if (std::ranges::find(own, option.key) != own.end()) continue;
         command
             .add_option(option.names, key_values_[i],
                         fmt::format("{}; default the scene's {}", option.meaning, option.key))

@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "src/render/film.h"
@@ -24,7 +26,8 @@ struct LoadedScene {
 class SceneArgument {
   public:
     // Adds SCENE, --set and the options that stand for scene keys. A name such as "--scene" makes SCENE an option.
-    void add_to(CLI::App& command, const char* name = "SCENE");
+    // Keys in `own` get no option: the command has its own for them.
+    void add_to(CLI::App& command, const char* name = "SCENE", std::span<const std::string_view> own = {});
 
     // A path, a built-in scene's name, or a picture that strata wrote; overrides applied, validated. Throws SceneError
     // or UsageError.

@@ -132,10 +132,14 @@ void check_canvas_format(const std::filesystem::path& path) {
                     path.string()));
 }
 
-void write_canvas(const std::filesystem::path& path, const Canvas& canvas, const Metadata& metadata) {
+std::vector<unsigned char> encode_canvas(const std::filesystem::path& path, const Canvas& canvas,
+                                         const Metadata& metadata) {
     check_canvas_format(path);
-    replace_file(path, encode_codes(path, {canvas.width, canvas.height, 0, 0, canvas.width, canvas.height, canvas.rgb},
-                                    metadata));
+    return encode_codes(path, {canvas.width, canvas.height, 0, 0, canvas.width, canvas.height, canvas.rgb}, metadata);
+}
+
+void write_canvas(const std::filesystem::path& path, const Canvas& canvas, const Metadata& metadata) {
+    replace_file(path, encode_canvas(path, canvas, metadata));
 }
 
 }  // namespace strata::image

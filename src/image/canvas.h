@@ -62,11 +62,15 @@ void outline(Canvas& canvas, const Box& box, const Colour& colour, int thickness
 // One pixel wide, both ends included.
 void draw_line(Canvas& canvas, int x0, int y0, int x1, int y1, const Colour& colour);
 
-// PNG, JPEG or TIFF by extension, codes as they are, rounded to the format's; equal canvases are equal files. The file
-// appears whole or not at all. Throws ImageError, as write_picture() does, and for EXR, which holds light.
+// A file's bytes: PNG, JPEG or TIFF by extension, codes as they are, rounded to the format's; the same for equal
+// arguments. Throws ImageError, as encode() does, and for EXR, which holds light.
+std::vector<unsigned char> encode_canvas(const std::filesystem::path& path, const Canvas& canvas,
+                                         const Metadata& metadata = {});
+
+// Puts these bytes in place whole, as write_picture() does.
 void write_canvas(const std::filesystem::path& path, const Canvas& canvas, const Metadata& metadata = {});
 
-// Throws ImageError if write_canvas() has no format for this path or this size; neither looks at the disk.
+// Throws ImageError if write_canvas() has no format for this path; does not look at the disk.
 void check_canvas_format(const std::filesystem::path& path);
 
 }  // namespace strata::image

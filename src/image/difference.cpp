@@ -10,7 +10,7 @@
 #include "src/image/canvas_buffer.h"
 #include "src/image/compare.h"
 #include "src/image/house_style.h"
-#include "src/image/image_error.h"
+#include "src/image/srgb.h"
 
 namespace strata::image {
 namespace {
@@ -28,6 +28,8 @@ Canvas colours_of(std::vector<float>& fractions, int width, int height) {
     const OIIO::ImageBuf source(OIIO::ImageSpec(width, height, 1, OIIO::TypeDesc::FLOAT), fractions.data());
     OIIO::ImageBuf target = buffer_of(canvas);
     require_drawn(OIIO::ImageBufAlgo::color_map(target, source, 0, kMap), target);
+    // OpenImageIO has the map's colours as linear light.
+    for (float& value : canvas.rgb) value = static_cast<float>(encode_srgb(value));
     return canvas;
 }
 

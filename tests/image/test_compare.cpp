@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -137,6 +138,18 @@ TEST_CASE("a difference gets lighter as it grows, and what is not finite a colou
     CHECK(luma(99) > 0.8f);
     const std::vector<float> last(shown.rgb.end() - 3, shown.rgb.end());
     CHECK(last == std::vector<float>{kNotFiniteColour.r, kNotFiniteColour.g, kNotFiniteColour.b});
+}
+
+TEST_CASE("the scale runs through inferno's published colours, at the square root of the distance") {
+    // matplotlib, _cm_listed.py, entries 0, 64, 128 and 255 of _inferno_data, in 8 bits.
+    const std::pair<double, std::array<int, 3>> published[] = {
+        {0.0, {0, 0, 4}}, {64 / 255.0, {87, 16, 110}}, {128 / 255.0, {188, 55, 84}}, {1.0, {252, 255, 164}}};
+    for (const auto& [place, codes] : published) {
+        Picture a = make_picture(1, 1);
+        std::ranges::fill(a.rgb, static_cast<float>(3 * place * place));
+        const Canvas shown = difference(a, make_picture(1, 1), 3);
+        for (int c = 0; c < 3; ++c) CHECK(std::fabs(255.0 * shown.rgb[c] - codes[c]) <= 3);
+    }
 }
 
 TEST_CASE("differences of any channel and sign count alike, and those beyond the top are its colour") {

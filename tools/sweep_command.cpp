@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+
+#include "src/render/cancel.h"
+#include "tools/commands.h"
+#include "tools/errors.h"
+#include "tools/standard_output.h"
+#include "tools/sweep_job.h"
+#include "tools/sweep_render.h"
+#include "tools/sweep_results.h"
+#include "tools/sweep_sheet.h"
+#include "tools/sweep_tables.h"
+
+namespace strata::tools {
+
+namespace {
+
+// Each option's texts, as CLI11 collects them.
+struct AxisTexts {
+    std::vector<std::string> N, m, estimator, time_order, seed, axis, rows, columns;
+};
+
+std::vector<AxisOption> with_origin(const char* origin, const std::vector<std::string>& texts) {
+    std::vector<AxisOption> options;
+    for (const std::string& text : texts) options.push_back({origin, text});
+    return options;
+}
+
+AxisRequest axis_request(const AxisTexts& texts) {
+    AxisRequest request;
+    for (const auto& [origin, list] :
+         {std::pair{"--N", &texts.N}, std::pair{"--m", &texts.m}, std::pair{"--estimator", &texts.estimator},
+          std::pair{"--time-order", &texts.time_order}, std::pair{"--seed", &texts.seed}}) {
+        for (const AxisOption& option : with_origin(origin, *list)) request.lists.push_back(option);
+    }
+    request.anywhere = with_origin("--axis", texts.axis);
+    request.rows = with_origin("--rows", texts.rows);
+    request.columns = with_origin("--columns", texts.columns);
+    return request;
+}
+
+void report(const SweepJob& job, const SweepResults& results) {
+    std::string text;
+    for (std::size_t r = 0; r < job.references.size(); ++r) {
+        const SweepReference& reference = job.references[r];
+        text += fmt::format("error    {} has an RMSE of about {:.2g} itself\n", reference.file,
+                            results.reference_errors[r]);
+    }
+    const std::string folder = job.folder.string();
+    text += fmt::format("wrote    {}: {}, {}, {} and {} pictures\n", folder, kSheetFile, kCsvFile, kJsonFile,
+                        job.cells.size());
+    print_out(text);
+}
+
+int sweep_command(const SweepRequest& request) {
+    static render::CancelToken cancel;
+    render::cancel_on_signals(cancel);
+    const SweepJob job = prepare_sweep(request);
+    SweepLedger ledger = read_ledger(job.folder / kJsonFile);
+    const SweepOutcome outcome = render_sweep(job, ledger, cancel);
+    if (outcome.unresolved_rays > 0 && !job.quiet)
+        print_error(
+            fmt::format("warning: {} rays were not settled; drawn in magenta, or as shadow", outcome.unresolved_rays));
+    if (outcome.cancelled) {
+        if (!job.quiet)
+            print_out(fmt::format("stopped  with {} of {} pictures; the same command goes on from there\n",
+                                  outcome.kept + outcome.rendered, job.cells.size() + 2 * job.references.size()));
+        return kExitSignal + render::cancelling_signal();
+    }
+    const SweepResults results = evaluate_sweep(job);
+    write_tables(job, ledger, results);
+    const std::filesystem::path sheet = job.folder / kSheetFile;
+    write_if_changed(sheet, image::encode_canvas(sheet, draw_sheet(job, results), sheet_metadata(job)));
+    if (!job.quiet) report(job, results);
+    return render::cancelling_signal() != 0 ? kExitSignal + render::cancelling_signal() : 0;
+}
+
+void add_axis_option(CLI::App& command, const char* names, std::vector<std::string>& texts, const char* type,
+                     const char* meaning) {
+    command.add_option(names, texts, meaning)
+        ->type_name(type)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_axis_options(CLI::App& command, AxisTexts& texts) {
+    add_axis_option(command, "-N,--N", texts.N, "N,...", "Samples a side, as 1,2,3,10: the columns");
+    add_axis_option(command, "-m,--m", texts.m, "M,...", "Orders of the B-spline filter, as 1,4,15: the rows");
+    add_axis_option(command, "--estimator", texts.estimator, "NAME,...", "Estimators, as none,stratified,sobol");
+    add_axis_option(command, "--time-order", texts.time_order, "L,...", "Orders of the B-spline filter in time");
+    add_axis_option(command, "--seed", texts.seed, "S,...", "Seeds of the sample positions");
+    add_axis_option(command, "--axis", texts.axis, "KEY=V,...", "Any scene key, as octaves=2,4,8 (may be repeated)");
+    add_axis_option(command, "--rows", texts.rows, "KEY=V,...", "The same, as rows");
+    add_axis_option(command, "--columns", texts.columns, "KEY=V,...", "The same, as columns");
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& program, int& exit_code) {
+    CLI::App* command =
+        program.add_subcommand("sweep", "Render a scene over a grid of settings and measure the errors");
+    auto request = std::make_shared<SweepRequest>();
+    auto texts = std::make_shared<AxisTexts>();
+    static constexpr std::array<std::string_view, 5> kOwn{"sampling.N", "sampling.m", "sampling.estimator",
+                                                          "sampling.time_order", "sampling.seed"};
+    request->scene.add_to(*command, "SCENE", kOwn);
+    add_axis_options(*command, *texts);
+    command->add_option("--crop", request->crop, "Render pixels [x0,x1) x [y0,y1) of the frame alone, y down")
+        ->type_name("x0,y0,x1,y1");
+    command
+        ->add_option("--reference", request->reference,
+                     "What errors are measured against: auto, none, or a picture of the same size")
+        ->type_name("auto|none|FILE")
+        ->capture_default_str();
+    command
+        ->add_option("--reference-N", request->reference_N,
+                     "N of each half of the automatic reference, 1 to 64; default twice the sweep's largest N")
+        ->type_name("N");
+    command->add_option("-o,--output", request->output, "The folder to write to; default SCENE-sweep")
+        ->type_name("FOLDER");
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+        ->type_name("n")
+        ->capture_default_str();
+    command->add_option("--simd", request->simd, "avx512, avx2, sse4 or scalar; default the best that is here")
+        ->type_name("TARGET");
+    command->add_flag("--quiet", request->quiet, "No progress, summary or warnings");
+    command->footer(
+        "One or two axes may have several values, at most 100 each and 400 pictures in all; others have one.\n"
+        "The folder gets each picture as float EXR (N02_m04.exr), sweep.png, a labelled contact sheet, and sweep.csv\n"
+        "and sweep.json with settings, rays, times and errors. Pictures of the same scene and settings that are there\n"
+        "already are kept, with their times; others of their names are replaced.\n"
+        "Automatic reference: two Sobol pictures of different seeds, reference_*_a.exr and _b.exr, and their mean; "
+        "one\n"
+        "for each filter and scene, since another order m (or any key but N, estimator, seed and exposure) has "
+        "another\n"
+        "ideal picture; `super` is held against order 1, `none` against the filter of its row. The reference's own\n"
+        "RMSE is half that between its halves; errors within 3 times of it are marked *.\n"
+        "  strata sweep terrain --size 320x180 --N 1,2,3,10 --m 1,4,15 -o sweep\n"
+        "  strata sweep wheel --rows seed=1,2,3 --columns estimator=stratified,sobol --reference none\n"
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 130 or 143 interrupted.");
+    command->callback([request, texts, &exit_code] {
+        request->axes = axis_request(*texts);
+        exit_code = sweep_command(*request);
+    });
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,73 @@
+// A sweep as the command line asks for it, checked before the first ray.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "src/image/metadata.h"
+#include "src/image/picture.h"
+#include "src/render/film.h"
+#include "src/scene/scene.h"
+#include "tools/scene_argument.h"
+#include "tools/sweep_axes.h"
+
+namespace strata::tools {
+
+// The options as typed; empty where there is none.
+struct SweepRequest {
+    SceneArgument scene;
+    AxisRequest axes;
+    std::string crop, reference = "auto", reference_N, output, simd, threads = "0";
+    bool quiet = false;
+};
+
+// A picture that the sweep renders, unless its file is there already.
+struct SweepPicture {
+    std::string file;  // name in the sweep's folder
+    scene::Scene scene;
+    render::Window window;
+    image::Metadata metadata;  // what makes a file this picture
+};
+
+struct SweepCell {
+    std::size_t row = 0, column = 0;
+    std::vector<std::pair<std::string, std::string>> settings;  // keys of the axes and their values here
+    SweepPicture picture;
+    std::size_t reference = 0;  // index
+};
+
+// What cells of one filter and one scene are compared with: the mean of two independent pictures.
+struct SweepReference {
+    std::string file;   // of the mean
+    std::string label;  // "m = 4"; empty where it is the only one
+    SweepPicture halves[2];
+};
+
+struct SweepJob {
+    LoadedScene loaded;
+    SweepAxes axes;
+    std::vector<SweepCell> cells;            // row by row
+    std::vector<SweepReference> references;  // --reference auto
+    std::optional<image::Picture> given_reference;
+    std::string given_reference_name;
+    std::filesystem::path folder;
+    bool quiet = false;
+    int threads = 0;
+
+    std::size_t rows() const { return axes.rows ? axes.rows->values.size() : 1; }
+    std::size_t columns() const { return axes.columns ? axes.columns->values.size() : 1; }
+};
+
+// Makes the folder. Throws UsageError or SceneError for what cannot be asked for, ImageError for a folder that cannot
+// be written to and a missing font.
+SweepJob prepare_sweep(const SweepRequest& request);
+
+// The names of what else is in the folder.
+inline constexpr const char* kSheetFile = "sweep.png";
+inline constexpr const char* kCsvFile = "sweep.csv";
+inline constexpr const char* kJsonFile = "sweep.json";
+
+}  // namespace strata::tools

@@ -1,0 +1,83 @@
+#include "tools/sweep_render.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "src/image/image_error.h"
+#include "src/image/read.h"
+#include "src/image/write.h"
+#include "src/render/progress_printer.h"
+#include "tools/batch_progress.h"
+#include "tools/render_picture.h"
+#include "tools/standard_output.h"
+#include "tools/sweep_tables.h"
+
+namespace strata::tools {
+
+namespace {
+
+std::vector<const SweepPicture*> pictures_of(const SweepJob& job) {
+    std::vector<const SweepPicture*> pictures;
+    for (const SweepCell& cell : job.cells) pictures.push_back(&cell.picture);
+    for (const SweepReference& reference : job.references)
+        for (const SweepPicture& half : reference.halves) pictures.push_back(&half);
+    return pictures;
+}
+
+double rays_of(const SweepPicture& picture) { return expected_rays(picture.scene, picture.window); }
+
+}  // namespace
+
+bool is_whole(const std::filesystem::path& path, const SweepPicture& picture) {
+    try {
+        if (!image::is_picture(path)) return false;
+        for (const auto& [name, value] : picture.metadata.entries())
+            if (image::read_metadata(path, name) != value) return false;
+        const image::Picture read = image::read_picture(path);
+        const render::Window window{read.x0, read.y0, read.x1, read.y1};
+        return window == picture.window && !image::read_metadata(path, "strata:partial");
+    } catch (const image::ImageError&) {
+        return false;
+    }
+}
+
+SweepOutcome render_sweep(const SweepJob& job, SweepLedger& ledger, const render::CancelToken& cancel) {
+    SweepOutcome outcome;
+    std::vector<const SweepPicture*> missing;
+    double total = 0;
+    for (const SweepPicture* picture : pictures_of(job)) {
+        if (is_whole(job.folder / picture->file, *picture)) {
+            ++outcome.kept;
+            continue;
+        }
+        missing.push_back(picture);
+        total += rays_of(*picture);
+    }
+    if (!job.quiet && outcome.kept > 0) {
+        print_out(missing.empty() ? fmt::format("kept     all {} pictures: nothing to render\n", outcome.kept)
+                                  : fmt::format("kept     {} pictures, {} to render\n", outcome.kept, missing.size()));
+    }
+
+    render::ProgressPrinter printer(job.quiet);
+    BatchProgress progress(total, printer.callback());
+    for (const SweepPicture* picture : missing) {
+        const RenderedPicture rendered = render_picture(
+            picture->scene, picture->window, render::Tracer::fast,
+            {.threads = job.threads, .on_progress = progress.next(rays_of(*picture)), .cancel = &cancel});
+        outcome.cancelled = rendered.result.cancelled || cancel.requested();
+        if (!rendered.result.cancelled) {
+            image::write_picture(job.folder / picture->file, rendered.picture, picture->metadata,
+                                 {.exposure = 0, .exr_format = image::ExrFormat::floating});
+            ledger[picture->file] = cost_of(rendered.result, picture->metadata);
+            write_costs(job, ledger);
+            ++outcome.rendered;
+            outcome.unresolved_rays += rendered.result.counters.unresolved_rays;
+        }
+        if (outcome.cancelled) break;
+    }
+    printer.clear();
+    return outcome;
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,16 @@
+// A sweep's contact sheet.
+#pragma once
+
+#include "src/image/canvas.h"
+#include "src/image/metadata.h"
+#include "tools/sweep_job.h"
+#include "tools/sweep_results.h"
+
+namespace strata::tools {
+
+// Small pictures are magnified by replication; of large ones each pixel is the mean of n x n, in linear light.
+image::Canvas draw_sheet(const SweepJob& job, const SweepResults& results);
+
+image::Metadata sheet_metadata(const SweepJob& job);
+
+}  // namespace strata::tools

@@ -1,0 +1,22 @@
+// A sweep's figures as sweep.csv and sweep.json.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "tools/sweep_job.h"
+#include "tools/sweep_ledger.h"
+#include "tools/sweep_results.h"
+
+namespace strata::tools {
+
+// Leaves a file that has these bytes already alone. Throws ImageError.
+void write_if_changed(const std::filesystem::path& path, std::span<const unsigned char> bytes);
+
+// sweep.json of a sweep that is not finished: the costs so far.
+void write_costs(const SweepJob& job, const SweepLedger& ledger);
+
+// Both tables. Equal sweeps give equal tables, apart from seconds, cpu_seconds and threads.
+void write_tables(const SweepJob& job, const SweepLedger& ledger, const SweepResults& results);
+
+}  // namespace strata::tools
