@@ -45,7 +45,7 @@ void report(const SweepJob& job, const SweepResults& results) {
     std::string text;
     for (std::size_t r = 0; r < job.references.size(); ++r) {
         const SweepReference& reference = job.references[r];
-        text += fmt::format("error    {} has an RMSE of about {:.2g} itself\n", reference.file,
+        text += fmt::format("error    {} has an RMSE of about {:#.2g} itself\n", reference.file,
                             results.reference_errors[r]);
     }
     const std::string folder = job.folder.string();

@@ -13,7 +13,7 @@ namespace strata::tools {
 
 namespace {
 
-constexpr int kMagnifiedTo = 240;  // px of a panel's width, nearly
+constexpr int kLeastWidth = 240;  // px of a panel, by magnification
 constexpr int kMostZoom = 16;
 constexpr int kLongestPanelSide = 480;
 
@@ -28,7 +28,7 @@ Scaling scaling_of(const SweepJob& job) {
         width = std::max(width, cell.picture.window.width());
         longest = std::max({longest, width, cell.picture.window.height()});
     }
-    return {.zoom = std::clamp(std::min(kMagnifiedTo / width, kLongestPanelSide / longest), 1, kMostZoom),
+    return {.zoom = std::clamp(std::min((kLeastWidth + width - 1) / width, kLongestPanelSide / longest), 1, kMostZoom),
             .shrink = (longest + kLongestPanelSide - 1) / kLongestPanelSide};
 }
 
@@ -75,7 +75,8 @@ std::string reference_text(const SweepJob& job, const SweepResults& results) {
     std::vector<std::string> errors;
     for (std::size_t r = 0; r < job.references.size(); ++r) {
         const std::string& label = job.references[r].label;
-        errors.push_back(fmt::format("{:.2g}{}", results.reference_errors[r], label.empty() ? "" : " (" + label + ")"));
+        errors.push_back(
+            fmt::format("{:#.2g}{}", results.reference_errors[r], label.empty() ? "" : " (" + label + ")"));
     }
     const bool one = errors.size() == 1;
     std::string text = fmt::format(
