@@ -77,6 +77,8 @@ check_axes_and_references() {
     "$strata" render zoneplate --size 24x12 -N 8 --quiet --format float -o ref.exr
     run sweep zoneplate --size 24x12 --N 1,8 --reference ref.exr -o given
     expect 'a given reference measures the same picture as no error' "$status: $(awk -F, '/^N08/{print $9}' given/sweep.csv)" '0: 0'
+    run sweep zoneplate --size 24x12 --N 1,16 --estimator sobol --reference-N 4 -o near
+    expect 'errors that are partly the reference'"'"'s are marked' "$(awk -F, 'NR>1{print $NF}' near/sweep.csv | tr '\n' ' ')" 'no yes '
     run sweep zoneplate --size 24x12 --N 4 --estimator super,stratified --m 1 --reference-N 4 -o box
     expect 'box and order 1 share their reference' "$(cd box && echo reference*)" \
         'reference_box.exr reference_box_a.exr reference_box_b.exr'
