@@ -1,5 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include <random>
 
 #include "src/image/image_error.h"
@@ -93,5 +96,26 @@ TEST_CASE("a truncated picture is an error that names the file") {
         }
         MESSAGE(std::string(extension), ": refused ", refused, " of 5 truncated files");
         CHECK(refused == 5);
+    }
+}
+
+TEST_CASE("linear radiance comes back from every format, the exposure undone") {
+    const ScratchFolder folder;
+    Picture picture = make_picture(16, 16);
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i) picture.rgb[i] = static_cast<float>(i) / 768.0f * 0.5f;
+    for (const double exposure : {0.0, 0.9, -1.5}) {
+        write_picture(folder / "a.exr", picture, {}, {exposure, ExrFormat::floating});
+        CHECK(read_linear(folder / "a.exr", exposure).rgb == picture.rgb);
+        // Half a code, where the curve is steepest: its slope is at most 2.4 / 1.055 of light a code's unit.
+        for (const auto& [name, codes] : {std::pair{"a.png", 255.0}, {"a.tif", 65535.0}}) {
+            write_picture(folder / name, picture, {}, {exposure, ExrFormat::half});
+            const Picture read = read_linear(folder / name, exposure);
+            const double bound = 0.5 / codes * 2.4 / 1.055 * std::exp2(-exposure) + 1e-7;
+            double worst = 0;
+            for (std::size_t i = 0; i < picture.rgb.size(); ++i)
+                worst = std::max(worst, std::fabs(static_cast<double>(read.rgb[i]) - picture.rgb[i]) / bound);
+            CHECK(worst <= 1);
+            MESSAGE(std::string(name) << " at " << exposure << " stops, observed / bound: " << worst);
+        }
     }
 }
