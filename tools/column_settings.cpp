@@ -118,7 +118,7 @@ ColumnSettings parse_entry(std::string_view origin, std::string_view entry) {
     ColumnSettings column;
     column.text = entry;
     for (const std::string_view word : Splitter(origin, entry).split(kBlank)) {
-        if (word.empty() || (word == kAsItIs && word == entry)) continue;
+        if (word.empty() || word == kAsItIs) continue;
         const auto equals = word.find('=');
         if (equals == std::string_view::npos) {
             column.assignments.push_back(estimator_assignment(origin, entry, word));

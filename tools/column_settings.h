@@ -4,7 +4,7 @@
 // (`sampling.N`), or its last part where that names one key (`fov_deg`) or is one of the sampling's (`N`, `m`, `l` or
 // `time_order`, `estimator`, `seed`). A name of an estimator alone is that estimator: `none`, `sobol N=4`. Values are
 // TOML, words without quotes; ';' and blanks within quotes, [] and {} belong to the value. label="..." is what is
-// written at the picture. The word `scene` alone is the scene as it is.
+// written at the picture. The word `scene` changes nothing: alone it is the scene as it is.
 #pragma once
 
 #include <string>

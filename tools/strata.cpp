@@ -108,6 +108,7 @@ int run(int argc, char** argv) {
     strata::tools::add_probe_command(program, exit_code);
     strata::tools::add_strip_command(program, exit_code);
     strata::tools::add_sweep_command(program, exit_code);
+    strata::tools::add_animate_command(program, exit_code);
     // Commands added later would inherit it.
     program.footer("'strata COMMAND --help' explains each. `strata render` without more renders the scene terrain.");
     try {

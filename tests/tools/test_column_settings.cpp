@@ -43,6 +43,8 @@ TEST_CASE("entries are cut at ';', settings at blanks, whatever the blanks") {
     CHECK(columns[2].label == "sobol, N = 10");
     CHECK(columns[3].assignments.empty());
     CHECK(!columns[3].label.empty());
+    CHECK(parse_column("--left", "scene label='as it is'").assignments.empty());
+    CHECK(parse_column("--left", "scene label='as it is'").label == "as it is");
 }
 
 TEST_CASE("blanks and ';' within quotes and brackets belong to the value") {

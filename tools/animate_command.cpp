@@ -1,0 +1,248 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <system_error>
+
+#include "src/image/write.h"
+#include "src/render/cancel.h"
+#include "src/render/progress_printer.h"
+#include "tools/animate_film.h"
+#include "tools/animate_job.h"
+#include "tools/animate_sheet.h"
+#include "tools/batch_progress.h"
+#include "tools/commands.h"
+#include "tools/errors.h"
+#include "tools/render_picture.h"
+#include "tools/standard_output.h"
+
+namespace strata::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A frame that is not there yet, and which of its files are to be written.
+struct Todo {
+    int frame = 0;
+    std::vector<fs::path> missing;
+};
+
+// Throws UsageError for the first file that is there and is not the frame asked for.
+Todo files_to_write(const AnimateJob& job, int frame) {
+    const image::Metadata metadata = frame_metadata(job, frame);
+    Todo todo{frame, {}};
+    for (const FrameOutput& output : job.frames) {
+        const fs::path path = output.pattern.path(frame);
+        const bool replaces = job.overwrite && !output.is_scratch;
+        const FoundFrame found = replaces ? FoundFrame{} : find_frame(path, metadata, job.width, job.height);
+        if (found.state == FrameState::whole) continue;
+        if (found.state == FrameState::other && !output.is_scratch) {
+            throw UsageError(
+                fmt::format("{} is there and is not the frame asked for: {}; allowed: --overwrite, or "
+                            "another -o",
+                            path.string(), found.why));
+        }
+        todo.missing.push_back(path);
+    }
+    return todo;
+}
+
+class Animator {
+  public:
+    Animator(const AnimateJob& job, const render::CancelToken& cancel)
+        : job_(job),
+          cancel_(cancel),
+          printer_(job.quiet),
+          work_(find_work()),
+          progress_(total(), printer_.callback()) {}
+
+    int kept() const { return job_.range.count() - static_cast<int>(work_.size()); }
+    int rendered() const { return rendered_; }
+    std::uint64_t unresolved() const { return unresolved_; }
+
+    // False when it was stopped.
+    bool run() {
+        std::error_code ignored;  // writing says what is wrong with the folder
+        if (!job_.scratch.empty() && !work_.empty()) fs::create_directory(job_.scratch, ignored);
+        for (const Todo& todo : work_) {
+            if (!render_frame(todo)) return false;
+            ++rendered_;
+        }
+        return !cancel_.requested();
+    }
+
+  private:
+    std::vector<Todo> find_work() const {
+        std::vector<Todo> work;
+        for (int frame = job_.range.first; frame <= job_.range.last; ++frame) {
+            Todo todo = files_to_write(job_, frame);
+            if (!todo.missing.empty()) work.push_back(std::move(todo));
+        }
+        return work;
+    }
+
+    static render::Window window(const scene::Scene& scene) { return {0, 0, scene.film.width, scene.film.height}; }
+
+    double total() const {
+        double a_frame = 0;
+        for (const scene::Scene& scene : frame_scenes(job_, job_.range.first)) {
+            a_frame += expected_rays(scene, window(scene));
+        }
+        return a_frame * static_cast<double>(work_.size());
+    }
+
+    bool render_frame(const Todo& todo) {
+        std::vector<image::Picture> pictures;
+        const std::vector<scene::Scene> scenes = frame_scenes(job_, todo.frame);
+        for (const scene::Scene& scene : scenes) {
+            const double weight = expected_rays(scene, window(scene));
+            RenderedPicture rendered =
+                render_picture(scene, window(scene), parse_tracer(job_.tracer),
+                               {.threads = job_.threads, .on_progress = progress_.next(weight), .cancel = &cancel_});
+            if (rendered.result.cancelled) {
+                printer_.clear();
+                return false;
+            }
+            unresolved_ += rendered.result.counters.unresolved_rays;
+            pictures.push_back(std::move(rendered.picture));
+        }
+        write(todo, scenes, pictures);
+        return true;
+    }
+
+    void write(const Todo& todo, const std::vector<scene::Scene>& scenes,
+               const std::vector<image::Picture>& pictures) const {
+        const image::Metadata metadata = frame_metadata(job_, todo.frame);
+        if (job_.columns.empty()) {
+            for (const fs::path& path : todo.missing) {
+                image::write_picture(path, pictures.front(), metadata, job_.write);
+            }
+            return;
+        }
+        std::vector<image::Canvas> canvases;
+        for (std::size_t i = 0; i < pictures.size(); ++i) {
+            canvases.push_back(image::to_canvas(pictures[i], scenes[i].film.exposure));
+        }
+        const image::Canvas sheet = side_by_side(job_.columns, std::move(canvases));
+        for (const fs::path& path : todo.missing) image::write_canvas(path, sheet, metadata);
+    }
+
+    const AnimateJob& job_;
+    const render::CancelToken& cancel_;
+    render::ProgressPrinter printer_;
+    std::vector<Todo> work_;
+    BatchProgress progress_;
+    int rendered_ = 0;
+    std::uint64_t unresolved_ = 0;
+};
+
+void remove_scratch(const AnimateJob& job) {
+    if (job.scratch.empty()) return;
+    std::error_code ignored;
+    const FramePattern& pattern = job.frames[job.film_source].pattern;
+    for (int frame = job.range.first; frame <= job.range.last; ++frame) fs::remove(pattern.path(frame), ignored);
+    fs::remove(job.scratch, ignored);  // unless there is something else in it
+}
+
+void say_what_was_done(const AnimateJob& job, const Animator& animator) {
+    if (job.quiet) return;
+    if (animator.unresolved() > 0) {
+        print_error(fmt::format("warning: {} rays were not settled within {} steps; drawn in magenta, or as shadow",
+                                animator.unresolved(), trace::kStepLimit));
+    }
+    print_out(fmt::format("frames   {} rendered, {} kept\n", animator.rendered(), animator.kept()));
+    for (const FrameOutput& output : job.frames) {
+        if (!output.is_scratch) print_out(fmt::format("wrote    {}\n", output.pattern.text()));
+    }
+}
+
+int stopped(const AnimateJob& job, const Animator& animator) {
+    if (!job.quiet) {
+        print_out(fmt::format("stopped  after {} of {} frames, which are kept; the same command goes on from there\n",
+                              animator.rendered() + animator.kept(), job.range.count()));
+    }
+    return kExitSignal + render::cancelling_signal();
+}
+
+int animate_command(const AnimateRequest& request) {
+    static render::CancelToken cancel;
+    render::cancel_on_signals(cancel);
+    const AnimateJob job = prepare_animation(request);
+    Animator animator(job, cancel);
+    if (!animator.run()) return stopped(job, animator);
+    say_what_was_done(job, animator);
+    for (const fs::path& film : job.films) {
+        try {
+            encode_film(film, job.frames[job.film_source].pattern, job.range, job.scene.shutter.fps);
+        } catch (const std::exception&) {
+            // The signal that stopped this program stopped ffmpeg too.
+            if (!cancel.requested()) throw;
+        }
+        if (cancel.requested()) return kExitSignal + render::cancelling_signal();
+        if (!job.quiet) {
+            print_out(fmt::format("wrote    {} ({} frames, {:g} s)\n", film.string(), job.range.count(),
+                                  job.range.count() / job.scene.shutter.fps));
+        }
+    }
+    remove_scratch(job);
+    return 0;
+}
+
+void add_column_options(CLI::App& command, AnimateRequest& request) {
+    command
+        .add_option("--columns", request.columns,
+                    "Pictures side by side, their settings between ';', as \"none; N=4 m=4; shutter.open_s=0.02 l=4 "
+                    "label='blurred'\"; \"scene\" is the scene as it is")
+        ->type_name("SETTINGS");
+    command.add_option("--left", request.left, "The left one of two pictures: \"none\" (the default), \"N=4 m=4\" ...")
+        ->type_name("SETTINGS");
+    command.add_option("--right", request.right, "The right one; default the scene as it is")->type_name("SETTINGS");
+}
+
+}  // namespace
+
+void add_animate_command(CLI::App& program, int& exit_code) {
+    CLI::App* command = program.add_subcommand("animate", "Render numbered frames and films");
+    auto request = std::make_shared<AnimateRequest>();
+    request->scene.add_to(*command);
+    command
+        ->add_option("--frames", request->frames,
+                     "Frames first-last, both included; default one loop of a spin or wheel, or to the last camera key")
+        ->type_name("A-B");
+    command
+        ->add_option("-o,--output", request->outputs,
+                     "NAME.png, .exr, .tif or .jpg: frames NAME.0001.png ... ('#'s choose where the number goes); "
+                     "NAME.mp4, .webm or .gif: a film by ffmpeg (may be repeated); default SCENE.mp4")
+        ->type_name("FILE")
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_column_options(*command, *request);
+    command->add_flag("--overwrite", request->overwrite, "Render and replace frames that are there");
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+        ->type_name("n")
+        ->capture_default_str();
+    command->add_option("--tracer", request->tracer, "fast, or reference")->type_name("NAME")->capture_default_str();
+    command->add_option("--simd", request->simd, "avx512, avx2, sse4 or scalar; default the best that is here")
+        ->type_name("TARGET");
+    command->add_option("--format", request->format, "EXR channels: half or float; default half")->type_name("NAME");
+    command->add_flag("--quiet", request->quiet, "No progress, summary or warnings");
+    command->footer(
+        "Frame k begins at k / shutter.fps seconds. What moves: camera.keys, surface.spin_deg_per_s, surface.drift, "
+        "the\n"
+        "wheel. Motion blur: shutter.open_s > 0, by a B-spline of order --time-order, N * N samples in all.\n"
+        "A frame that is there, whole and of the same settings, is kept. One of other settings is refused before\n"
+        "anything is rendered, unless --overwrite is given. Films alone keep their frames in FILE.frames until they "
+        "are\n"
+        "encoded; interrupted, the same command goes on from them.\n"
+        "The built-in scenes isosurface and wheel are compared side by side unless --columns says otherwise.\n"
+        "  strata animate isosurface                           loops: no antialiasing | in space and time\n"
+        "  strata animate planet --frames 0-99 -o 'out/planet.####.exr' -o planet.mp4 --set shutter.open_s=0.02\n"
+        "  strata animate wheel --columns \"none; l=1; l=4\" --size 320x320 -o wheel.gif\n"
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 130 or 143 interrupted.");
+    command->callback([request, command, &exit_code] {
+        if (command->count("--frame") > 0) throw UsageError("--frame: allowed: --frames A-B, or --frames A for one");
+        exit_code = animate_command(*request);
+    });
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,192 @@
+#include "tools/animate_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "src/image/format.h"
+#include "src/image/image_error.h"
+#include "src/image/output_file.h"
+#include "src/image/text.h"
+#include "src/scene/key_text.h"
+#include "src/scene/validate.h"
+#include "tools/animate_film.h"
+#include "tools/animate_sheet.h"
+#include "tools/errors.h"
+#include "tools/picture_metadata.h"
+#include "tools/process.h"
+
+namespace strata::tools {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kMostThreads = 1024;
+constexpr const char* kExtensions = ".exr, .png, .tif or .jpg for frames, .mp4, .webm or .gif for films";
+
+// What the paper's animations compare, of the built-in scenes that are made for them.
+std::string default_columns(const LoadedScene& loaded) {
+    const scene::Sampling& sampling = loaded.scene.sampling;
+    if (loaded.source == "isosurface") {
+        return fmt::format(
+            "none label=\"no antialiasing\"; scene label=\"antialiased in space (m = {}) and time (l = {}), "
+            "{} samples\"",
+            sampling.m, sampling.time_order, sampling.N * sampling.N);
+    }
+    if (loaded.source == "wheel") return "l=1 label=\"box in time (l = 1)\"; l=4 label=\"cubic in time (l = 4)\"";
+    return {};
+}
+
+std::string choose_columns(const AnimateRequest& request, const LoadedScene& loaded) {
+    const bool has_sides = !request.left.empty() || !request.right.empty();
+    if (!request.columns.empty() && has_sides) {
+        throw UsageError("--columns: allowed: without --left and --right, which are another way to say it");
+    }
+    if (!request.columns.empty()) return request.columns;
+    if (!has_sides) return default_columns(loaded);
+    const std::string left = request.left.empty() ? "none" : request.left;
+    const std::string right = request.right.empty() ? "scene" : request.right;
+    parse_column("--left", left);
+    parse_column("--right", right);
+    return left + "; " + right;
+}
+
+void check_columns(const AnimateJob& job) {
+    const scene::Scene& base = job.scene;
+    for (const ColumnSettings& column : job.columns) {
+        const scene::Scene scene = with_settings(base, column, "--columns");
+        const bool same_frame = scene.film.width == base.film.width && scene.film.height == base.film.height;
+        const bool same_time = scene.shutter.fps == base.shutter.fps && scene.shutter.frame == base.shutter.frame;
+        if (same_frame && same_time) continue;
+        throw UsageError(
+            fmt::format("--columns '{}': allowed: the same film.width, film.height, shutter.fps and "
+                        "shutter.frame for all columns; --size and --frames set them",
+                        scene::excerpt(column.text)));
+    }
+}
+
+image::ExrFormat parse_exr_format(const std::string& name) {
+    if (name == "half") return image::ExrFormat::half;
+    if (name == "float") return image::ExrFormat::floating;
+    throw UsageError(fmt::format("--format {}: allowed: half, float", scene::excerpt(name)));
+}
+
+bool is_png(const FrameOutput& output) { return output.pattern.path(0).extension() == ".png"; }
+
+void add_output(AnimateJob& job, const fs::path& typed) {
+    if (!typed.has_filename()) throw UsageError(fmt::format("-o {}: names no file", typed.string()));
+    if (is_film(typed)) {
+        if (std::ranges::find(job.films, typed) == job.films.end()) job.films.push_back(typed);
+        return;
+    }
+    try {
+        image::format_of(typed);
+        if (!job.columns.empty()) image::check_canvas_format(typed);
+        image::check_size(typed, job.width, job.height);
+    } catch (const image::ImageError& error) {
+        if (job.columns.empty()) throw UsageError(fmt::format("{} (allowed: {})", error.what(), kExtensions));
+        throw UsageError(
+            fmt::format("{} (of pictures side by side: .png, .tif or .jpg, .mp4, .webm or .gif)", error.what()));
+    }
+    FrameOutput output{.pattern = FramePattern(typed)};
+    const auto same = [&](const FrameOutput& other) { return other.pattern.text() == output.pattern.text(); };
+    if (std::ranges::none_of(job.frames, same)) job.frames.push_back(std::move(output));
+}
+
+// Films are made of PNG frames: those asked for, or some in a folder beside the first film, which stays when the
+// animation is interrupted.
+void choose_film_source(AnimateJob& job) {
+    if (job.films.empty()) return;
+    const auto found = std::ranges::find_if(job.frames, is_png);
+    job.film_source = static_cast<std::size_t>(found - job.frames.begin());
+    if (found != job.frames.end()) return;
+    job.scratch = fs::path(job.films.front().string() + ".frames");
+    job.frames.push_back({.pattern = FramePattern(job.scratch / "frame.####.png"), .is_scratch = true});
+}
+
+void check_paths(const AnimateJob& job) {
+    for (const fs::path& film : job.films) image::check_replaceable(film);
+    if (!job.films.empty()) find_program("ffmpeg", "ffmpeg");
+    for (const FrameOutput& output : job.frames) {
+        if (output.is_scratch) continue;
+        const fs::path first = output.pattern.path(job.range.first);
+        image::check_replaceable(first);
+    }
+    std::error_code error;
+    if (job.scratch.empty() || !fs::exists(job.scratch, error) || fs::is_directory(job.scratch, error)) return;
+    throw UsageError(fmt::format("{}: allowed: a folder, or nothing, where the film's frames are kept meanwhile",
+                                 job.scratch.string()));
+}
+
+// Every frame has its own time: what is within reach of one may not be of another.
+void check_scenes(const AnimateJob& job) {
+    for (int frame = job.range.first; frame <= job.range.last; ++frame) {
+        for (const scene::Scene& scene : frame_scenes(job, frame)) {
+            scene::validate(scene, fmt::format("frame {}", frame));
+        }
+    }
+}
+
+void choose_size(AnimateJob& job) {
+    job.width = job.scene.film.width;
+    job.height = job.scene.film.height;
+    if (job.columns.empty()) return;
+    image::check_fonts();
+    const image::Picture blank = image::make_picture(job.width, job.height);
+    const image::Canvas sheet = side_by_side(job.columns, std::vector(job.columns.size(), image::to_canvas(blank, 0)));
+    job.width = sheet.width;
+    job.height = sheet.height;
+}
+
+}  // namespace
+
+AnimateJob prepare_animation(const AnimateRequest& request) {
+    AnimateJob job;
+    job.overwrite = request.overwrite;
+    job.quiet = request.quiet;
+    job.threads = parse_integer("--threads", request.threads, 0, kMostThreads);
+    if (!request.simd.empty()) use_simd_target(request.simd);
+    job.tracer = request.tracer;
+    parse_tracer(job.tracer);
+    const LoadedScene loaded = request.scene.load();
+    job.scene = loaded.scene;
+    job.format = request.format.empty() ? "half" : request.format;
+    job.write = {.exposure = job.scene.film.exposure, .exr_format = parse_exr_format(job.format)};
+    job.range = request.frames.empty() ? default_frames(job.scene) : parse_frames(request.frames);
+    job.scene.shutter.frame = job.range.first;
+    job.columns_text = choose_columns(request, loaded);
+    if (!job.columns_text.empty()) job.columns = parse_columns("--columns", job.columns_text);
+    check_columns(job);
+    check_scenes(job);
+    choose_size(job);
+    const std::vector<std::string> outputs =
+        request.outputs.empty() ? std::vector<std::string>{loaded.name + ".mp4"} : request.outputs;
+    for (const std::string& output : outputs) add_output(job, output);
+    choose_film_source(job);
+    check_paths(job);
+    return job;
+}
+
+std::vector<scene::Scene> frame_scenes(const AnimateJob& job, int frame) {
+    scene::Scene scene = job.scene;
+    scene.shutter.frame = frame;
+    if (job.columns.empty()) return {scene};
+    std::vector<scene::Scene> scenes;
+    for (const ColumnSettings& column : job.columns) {
+        scenes.push_back(with_settings(scene, column, fmt::format("frame {}: --columns", frame)));
+    }
+    return scenes;
+}
+
+image::Metadata frame_metadata(const AnimateJob& job, int frame) {
+    scene::Scene scene = job.scene;
+    scene.shutter.frame = frame;
+    const render::Window whole{0, 0, scene.film.width, scene.film.height};
+    image::Metadata metadata = picture_metadata(scene, whole, job.tracer, job.format);
+    if (!job.columns.empty()) metadata.set("strata:columns", job.columns_text);
+    return metadata;
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,57 @@
+// An animation as the command line asks for it, checked before the first ray.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "src/image/encode.h"
+#include "src/scene/scene.h"
+#include "tools/animate_frames.h"
+#include "tools/animate_range.h"
+#include "tools/column_settings.h"
+#include "tools/scene_argument.h"
+
+namespace strata::tools {
+
+// The options as typed; empty where there is none.
+struct AnimateRequest {
+    SceneArgument scene;
+    std::vector<std::string> outputs;
+    std::string frames, columns, left, right, tracer = "fast", simd, format, threads = "0";
+    bool overwrite = false, quiet = false;
+};
+
+// One file of each frame.
+struct FrameOutput {
+    FramePattern pattern;
+    bool is_scratch = false;  // for a film alone: its own, replaced and removed
+};
+
+struct AnimateJob {
+    scene::Scene scene;
+    std::vector<ColumnSettings> columns;  // side by side, with labels; empty: the scene alone
+    std::string columns_text;             // all of them as typed
+    FrameRange range;
+    std::vector<FrameOutput> frames;
+    std::vector<std::filesystem::path> films;
+    std::size_t film_source = 0;    // which of `frames` films are made of
+    std::filesystem::path scratch;  // folder of the scratch frames; empty: there are none
+    image::WriteOptions write;
+    std::string tracer, format;
+    int threads = 0;
+    int width = 0, height = 0;  // of a frame's file
+    bool overwrite = false, quiet = false;
+};
+
+// Throws UsageError or SceneError for what cannot be asked for, ImageError for outputs that cannot be written,
+// ProcessError when ffmpeg is wanted and missing.
+AnimateJob prepare_animation(const AnimateRequest& request);
+
+// The scenes of a frame's pictures, one a column.
+std::vector<scene::Scene> frame_scenes(const AnimateJob& job, int frame);
+
+// What a frame's file says of itself.
+image::Metadata frame_metadata(const AnimateJob& job, int frame);
+
+}  // namespace strata::tools

@@ -1,0 +1,19 @@
+#include "tools/animate_sheet.h"
+
+#include <utility>
+
+#include "src/image/sheet.h"
+
+namespace strata::tools {
+
+image::Canvas side_by_side(const std::vector<ColumnSettings>& columns, std::vector<image::Canvas> pictures) {
+    image::Sheet sheet;
+    sheet.rows.resize(1);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        sheet.column_labels.push_back(columns[i].label);
+        sheet.rows.front().push_back({std::move(pictures[i]), "", false});
+    }
+    return image::compose(sheet);
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,14 @@
+// A frame of pictures side by side.
+#pragma once
+
+#include <vector>
+
+#include "src/image/canvas.h"
+#include "tools/column_settings.h"
+
+namespace strata::tools {
+
+// One picture a column, under its label. The size depends on the labels and the pictures' sizes alone.
+image::Canvas side_by_side(const std::vector<ColumnSettings>& columns, std::vector<image::Canvas> pictures);
+
+}  // namespace strata::tools
