@@ -34,6 +34,14 @@ scene::Scene small_scene(SurfaceKind kind) {
         scene.surface.spin_deg_per_s = 50.0;
         scene.shutter.open_s = 0.05;
     }
+    // Everything that can move does, somewhere.
+    if (kind != SurfaceKind::terrain) scene.surface.drift = {0.3, -0.2, 0.5};
+    if (kind == SurfaceKind::hyperterrain || kind == SurfaceKind::isosurface) {
+        scene.shutter.open_s = 0.05;
+        const glm::dvec3 from = scene.camera.position, to = scene.camera.look_at;
+        scene.camera.keys = {{.time_s = -0.1, .position = from, .look_at = to, .fov_deg = 40.0},
+                             {.time_s = 0.1, .position = from + glm::dvec3(0.1), .look_at = 0.9 * to, .fov_deg = 55.0}};
+    }
     return scene;
 }
 

@@ -270,3 +270,28 @@ TEST_CASE("outside of clip()'s interval a ray meets nothing, and the interval li
     CHECK(shortened > 500);
     CHECK(entered > 50);
 }
+
+TEST_CASE("drifting noise is the oracle's at the time, while base and bound stay") {
+    Random random(77);
+    double worst = 0.0;
+    for (int trial = 0; trial < 400; ++trial) {
+        scene::Surface surface = random_drifting_surface(random);
+        surface.kind = static_cast<SurfaceKind>(trial % 4);
+        const trace::Field field(surface);
+        const double time = uniform(random, -50.0, 50.0);
+        const oracle::FieldOracle expected(shape_of(surface, time));
+        const glm::dvec3 x = 20.0 * unit_vector(random), shift = field.noise_shift(time);
+        // Positions reach 20 + 50 * 100; they are rounded a few times on the way, and so are the sums.
+        const double size = glm::length(x) + glm::length(shift);
+        const double rounding = 16 * 0x1p-53 * (size * field.lipschitz() + std::abs(field.base(x)) + field.amplitude());
+        const double error =
+            std::abs(field.value(x, shift) - static_cast<double>(expected.value<long double>({x.x, x.y, x.z})));
+        worst = std::max(worst, error / rounding);
+        CHECK(field.noise_shift(0.0) == glm::dvec3(0.0));
+    }
+    MESSAGE("largest error " << worst << " of the bound");
+    CHECK(worst < 1.0);
+    scene::Surface still = random_surface(random);
+    CHECK(!trace::Field(still).drifts());
+    CHECK(trace::Field(still).noise_shift(1e300) == glm::dvec3(0.0));
+}

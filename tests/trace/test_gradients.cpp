@@ -29,6 +29,31 @@ double bound(const trace::Field& field) {
 
 }  // namespace
 
+TEST_CASE("gradients of drifting noise agree with the reference path, each point at its own time, on every target") {
+    on_every_target([](const std::string& target) {
+        Random random(43);
+        double worst = 0.0;
+        for (int trial = 0; trial < 40; ++trial) {
+            scene::Surface surface = random_drifting_surface(random);
+            surface.kind = static_cast<SurfaceKind>(trial % 4);
+            const trace::Field field(surface);
+            const trace::FastTracer tracer(field);
+            const std::vector<glm::dvec3> x = points(random, 1 + random() % 70, 20.0);
+            std::vector<glm::dvec3> shift(x.size());
+            for (glm::dvec3& s : shift) s = field.noise_shift(uniform(random, -50.0, 50.0));
+            std::vector<glm::vec3> found(x.size());
+            trace::TraceCounters counters;
+            tracer.gradients(x, shift, found, counters);
+            for (std::size_t i = 0; i < x.size(); ++i) {
+                const double error = glm::length(glm::dvec3(found[i]) - field.gradient(x[i], shift[i]));
+                worst = std::max(worst, error / bound(field));
+            }
+        }
+        MESSAGE(target << ": largest error " << worst << " of the bound");
+        CHECK(worst < 1.0);
+    });
+}
+
 TEST_CASE("gradients agree with the reference path within float rounding, near and far, on every target") {
     on_every_target([](const std::string& target) {
         Random random(41);

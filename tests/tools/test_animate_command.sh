@@ -1,0 +1,129 @@
+#!/usr/bin/env bash
+# What `strata animate` promises, shown with tiny frames.
+set -u
+
+# shellcheck source=tests/tools/cli_checks.sh
+. "${BASH_SOURCE[0]%/*}/cli_checks.sh"
+
+tiny=(--size 16x9 -N 2)
+has_ffmpeg=$(command -v ffmpeg)
+
+check_frames() {
+    run animate planet "${tiny[@]}" --frames 2-4 -o p.exr -o 'q_##.png'
+    expect_match 'frames are rendered and counted' "$status: $output" '0: frames   3 rendered, 0 kept*wrote    p.####.exr*'
+    expect 'files are named by frame' "$(echo *)" 'p.0002.exr p.0003.exr p.0004.exr q_02.png q_03.png q_04.png'
+    "$strata" render planet "${tiny[@]}" --frame 3 -o r.exr -o r.png --quiet
+    expect_same_file 'a frame is the picture that render makes' p.0003.exr r.exr
+    expect_same_file 'in each format' q_03.png r.png
+    expect 'frames differ' "$(cmp -s p.0002.exr p.0003.exr && echo same)" ''
+
+    local before
+    before=$(stat -c %Y.%i -- *.exr)
+    run animate planet "${tiny[@]}" --frames 2-4 -o p.exr -o 'q_##.png'
+    expect_match 'frames that are there are kept' "$status: $output" '0: frames   0 rendered, 3 kept*'
+    expect 'and not written again' "$(stat -c %Y.%i -- *.exr)" "$before"
+    rm p.0003.exr
+    run animate planet "${tiny[@]}" --frames 1-4 -o p.exr --threads 1
+    expect_match 'what is missing is rendered' "$status: $output" '0: frames   2 rendered, 2 kept*'
+    expect_same_file 'to the same bits' p.0003.exr r.exr
+    run animate planet "${tiny[@]}" --frames 2 -o p.exr --overwrite
+    expect_match '--overwrite renders again' "$status: $output" '0: frames   1 rendered, 0 kept*'
+}
+
+check_other_frames() {
+    "$strata" animate planet "${tiny[@]}" --frames 1-2 -o p.exr -o p.png --quiet
+    refuses 'frames of other settings are refused with what differs' 2 \
+        "*p.0001.exr is there and is not the frame asked for*'N = 2', not 'N = 3'*--overwrite*" \
+        animate planet --size 16x9 -N 3 --frames 0-2 -o p.exr
+    expect 'before anything is rendered' "$(echo *)" 'p.0001.exr p.0001.png p.0002.exr p.0002.png'
+    head -c 300 p.0002.png >cut && mv cut p.0002.png
+    refuses 'a damaged frame is refused' 2 '*p.0002.png is there and is not the frame*' \
+        animate planet "${tiny[@]}" --frames 1-2 -o p.png
+    echo text >p.0001.png
+    refuses 'a file that is no picture is refused' 2 '*p.0001.png*no picture*' animate planet "${tiny[@]}" --frames 1 -o p.png
+    run animate planet "${tiny[@]}" --frames 1-2 -o p.png --overwrite
+    expect_match 'and replaced by --overwrite' "$status: $output" '0: frames   2 rendered*'
+}
+
+check_refusals() {
+    local range
+    for range in 3-2 a -1 1-2-3 1.5 0-100000; do
+        refuses "frames $range are refused" 2 "*--frames*" animate planet --frames="$range" -o p.png
+    done
+    refuses 'a scene without motion or keys needs frames' 2 '*--frames is needed*' animate terrain -o p.png
+    refuses '--frame is not what is meant' 2 '*--frame: allowed: --frames*' animate planet --frame 3
+    refuses 'an unknown extension is refused with the known ones' 2 '*.bmp*.exr*.mp4*' animate planet --frames 1 -o p.bmp
+    refuses 'EXR holds no sheet' 2 '*p.exr*' animate wheel -o p.exr
+    refuses 'a missing folder is named' 1 '*"nowhere" does not exist*' animate planet --frames 1 -o nowhere/p.png
+    refuses 'a # in a folder is refused' 2 "*'#' in a folder*" animate planet --frames 1 -o 'a#/p.png'
+    refuses 'settings of columns are checked' 2 "*--columns 'N=99': sampling.N: out of range*" animate wheel --columns 'N=99'
+    refuses 'a misspelt setting gets the nearest' 2 "*did you mean 'none'*" animate wheel --columns 'nne; N=2'
+    refuses 'columns of other sizes are refused' 2 '*same film.width*' animate wheel --columns 'none; film.width=3'
+    refuses '--columns and --left are one too many' 2 '*--columns: allowed: without --left*' animate wheel --columns none --left none
+    refuses 'an octave too fine at a late frame is refused by frame' 2 '*frame 1000000000*2^50*' \
+        animate hyperterrain --frames 1000000000 --set 'surface.drift=[1e6,0,0]' -o p.png
+    output=$(PATH=/nonexistent "$strata" animate wheel "${tiny[@]}" -o w.mp4 2>&1)
+    expect_match 'without ffmpeg the package is named' "$?: $output" '1: *ffmpeg is not installed*package ffmpeg*'
+    expect 'nothing is written when something is refused' "$(ls -A)" ''
+}
+
+check_columns() {
+    run animate isosurface --size 32x24 -N 2 --frames 0-1 -o i.png
+    expect_match 'the isosurface is compared by default' "$status: $output" '0: frames   2 rendered*'
+    run animate isosurface --size 32x24 -N 2 --frames 0-1 -o i.png
+    expect_match 'its frames are kept too' "$status: $output" '0: frames   0 rendered, 2 kept*'
+    refuses 'but not as those of other columns' 2 '*strata:columns*' \
+        animate isosurface --size 32x24 -N 2 --frames 0-1 --left 'N=1' -o i.png
+    run animate isosurface --size 32x24 -N 2 --frames 0 --columns scene -o one.png
+    local frame rays=()
+    for frame in 0 125 60; do
+        rays+=("$("$strata" probe ray isosurface --size 32x24 --frame "$frame" --pixel 16,8 |
+            sed 's/.*"t":\([^,]\{8\}\).*/\1/')")
+    done
+    expect 'in the frame after the loop a ray hits where it hit in the first' "${rays[1]}" "${rays[0]}"
+    expect 'and not so halfway' "$([[ ${rays[2]} == "${rays[0]}" ]] || echo differs)" differs
+}
+
+check_films() {
+    [[ $has_ffmpeg ]] || return
+    run animate wheel --size 16x16 -N 2 --frames 0-4 -o 'w x.mp4' -o w.webm -o w.gif
+    expect_match 'films are encoded' "$status: $output" '0: frames   5 rendered*wrote    w x.mp4 (5 frames, 0.2 s)*w.gif*'
+    expect 'their frames are gone' "$(find . -mindepth 1 | sort | tr '\n' ' ')" './w x.mp4 ./w.gif ./w.webm '
+    cp 'w x.mp4' earlier.mp4
+    cp w.gif earlier.gif
+    run animate wheel --size 16x16 -N 2 --frames 0-4 -o 'w x.mp4' -o w.gif -o 50%.png --threads 1
+    expect_same_file 'equal frames are equal films' earlier.mp4 'w x.mp4'
+    expect_same_file 'and equal gifs' earlier.gif w.gif
+    expect 'frames asked for stay' "$(echo 50*)" '50%.0000.png 50%.0001.png 50%.0002.png 50%.0003.png 50%.0004.png'
+    local facts
+    facts=$(ffprobe -v error -count_frames -show_entries stream=codec_name,width,height,pix_fmt,color_space,nb_read_frames,r_frame_rate \
+        -of csv=p=0 'w x.mp4')
+    expect_match 'H.264, even sides, 4:2:0, BT.709, 25 frames/s, every frame' "$facts" 'h264,*[02468],*[02468],yuv420p,bt709,25/1,5'
+    expect 'a gif has every frame' "$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 w.gif)" 5
+    mkdir fake
+    printf '#!/bin/sh\necho no room >&2\nexit 3\n' >fake/ffmpeg
+    chmod +x fake/ffmpeg
+    output=$(PATH="$PWD/fake:$PATH" "$strata" animate wheel --size 16x16 -N 2 --frames 0-4 -o w.gif 2>&1)
+    expect_match "an encoder that fails says why" "$?: $output" '1: *ffmpeg: failed with code 3*no room*'
+    expect_same_file 'the earlier film stays' earlier.gif w.gif
+    expect 'and the frames are kept for another try' "$(find w.gif.frames -name '*.png' | wc -l)" 5
+}
+
+check_signals() {
+    "$strata" animate hyperterrain --size 160x90 -N 8 --frames 0-999 --quiet -o h.png &
+    local pid=$! i
+    for ((i = 0; i < 1500; ++i)); do
+        [[ -e h.0001.png ]] && break
+        sleep 0.02
+    done
+    kill -INT "$pid"
+    wait "$pid"
+    expect 'SIGINT ends an animation with 130' "$?" 130
+    local broken=0 file
+    for file in h.*.png; do
+        "$strata" render "$file" --size 4x4 -N 1 --quiet -o t.exr || broken=1
+    done
+    expect 'whole frames are left, and nothing else' "$broken $(find . -mindepth 1 | grep -vc '^./h\.[0-9]*\.png$\|^./t.exr$')" '0 0'
+}
+
+run_groups check_frames check_other_frames check_refusals check_columns check_films check_signals

@@ -1,0 +1,84 @@
+// Frames: how they are asked for, when motion loops, how their files are named.
+#include "tools/animate_range.h"
+
+#include <doctest/doctest.h>
+
+#include "shaders_cpu/wheel.h"
+#include "src/trace/placement.h"
+#include "tools/animate_frames.h"
+#include "tools/errors.h"
+
+using namespace strata;
+using namespace strata::tools;
+
+TEST_CASE("frames are one number or first-last, both included") {
+    CHECK(parse_frames("7").first == 7);
+    CHECK(parse_frames("7").last == 7);
+    CHECK(parse_frames("0-249").count() == 250);
+    for (const char* bad : {"", "-", "-3", "3-", "3-2", "a", "1-2-3", "1,2", " 1", "1.5", "0-100000", "9999999999"}) {
+        CAPTURE(bad);
+        CHECK_THROWS_WITH_AS(parse_frames(bad), doctest::Contains("--frames"), UsageError);
+    }
+}
+
+TEST_CASE("a loop's last frame is followed by its first: the surface stands as it did, the wheel looks as it did") {
+    scene::Scene scene;
+    int loops = 0;
+    for (const double speed : {36.0, 72.0, -40.0, 4.0, 7.5, 1e-3}) {
+        for (const double fps : {25.0, 24.0, 30.0, 29.97}) {
+            scene.surface.spin_deg_per_s = speed;
+            scene.shutter.fps = fps;
+            const auto frames = loop_frames(scene);
+            if (!frames) continue;
+            ++loops;
+            const trace::Placement placement(scene.surface);
+            const glm::dmat3 start = placement.orientation(0.0), end = placement.orientation(*frames / fps);
+            for (int c = 0; c < 3; ++c) CHECK(glm::distance(start[c], end[c]) < 1e-6);
+        }
+    }
+    CHECK(loops >= 15);
+    scene.surface.spin_deg_per_s = 72.0;
+    scene.shutter.fps = 25.0;
+    CHECK(loop_frames(scene) == 125);
+
+    scene.image = scene::ImageKind::wheel;
+    scene.wheel.turns_per_s = 1.9;
+    const int frames = loop_frames(scene).value_or(0);
+    CHECK(frames == 125);  // 12 * 1.9 / 25 = 0.912 = 114 / 125 of a spoke a frame
+    int differing = 0;
+    for (double u = 0.5; u < 64; u += 1.0) {
+        for (double v = 0.5; v < 64; v += 1.0) {
+            differing += shaders::wheel(scene.wheel, 64, 64, u, v, 1e-5) !=
+                         shaders::wheel(scene.wheel, 64, 64, u, v, 1e-5 + frames / 25.0);
+        }
+    }
+    CHECK(differing == 0);
+}
+
+TEST_CASE("what does not repeat has no loop; camera keys end a flight") {
+    scene::Scene scene;
+    CHECK(!loop_frames(scene));
+    CHECK_THROWS_AS(default_frames(scene), UsageError);
+    scene.surface.spin_deg_per_s = 36.0;
+    scene.surface.drift = {0.0, 1.0, 0.0};
+    CHECK(!loop_frames(scene));
+    CHECK_THROWS_AS(default_frames(scene), UsageError);
+    scene.camera.keys = {{.time_s = 0.0}, {.time_s = 2.01}};
+    CHECK(default_frames(scene).count() == 52);  // 0 to 51, which is at 2.04 s
+    scene.camera.keys.back().time_s = 2.0;
+    CHECK(default_frames(scene).last == 50);
+    scene.camera.keys.back().time_s = 1e8;
+    CHECK_THROWS_AS(default_frames(scene), UsageError);
+}
+
+TEST_CASE("'#'s in a name become the frame's number, four digits without any") {
+    CHECK(FramePattern("out/a.png").path(7) == "out/a.0007.png");
+    CHECK(FramePattern("a.b.exr").path(12345) == "a.b.12345.exr");
+    CHECK(FramePattern("a##x.png").path(7) == "a07x.png");
+    CHECK(FramePattern("######.png").path(7) == "000007.png");
+    CHECK(FramePattern("a.png").text() == "a.####.png");
+    CHECK(FramePattern("5%/a%.png").ffmpeg_pattern() == "file:5%%/a%%.%04d.png");
+    CHECK(FramePattern("a.png").ffmpeg_pattern() == "file:./a.%04d.png");
+    CHECK_THROWS_AS(FramePattern("a#b#.png"), UsageError);
+    CHECK_THROWS_AS(FramePattern("a#/b.png"), UsageError);
+}
