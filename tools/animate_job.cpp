@@ -30,10 +30,8 @@ constexpr const char* kExtensions = ".exr, .png, .tif or .jpg for frames, .mp4, 
 std::string default_columns(const LoadedScene& loaded) {
     const scene::Sampling& sampling = loaded.scene.sampling;
     if (loaded.source == "isosurface") {
-        return fmt::format(
-            "none label=\"no antialiasing\"; scene label=\"antialiased in space (m = {}) and time (l = {}), "
-            "{} samples\"",
-            sampling.m, sampling.time_order, sampling.N * sampling.N);
+        return fmt::format("none label=\"no antialiasing\"; scene label=\"in space and time: m = {}, l = {}, N = {}\"",
+                           sampling.m, sampling.time_order, sampling.N);
     }
     if (loaded.source == "wheel") return "l=1 label=\"box in time (l = 1)\"; l=4 label=\"cubic in time (l = 4)\"";
     return {};

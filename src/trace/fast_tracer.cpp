@@ -69,7 +69,7 @@ struct OctaveCache {
 };
 
 // x is where the ray is; the noise is evaluated elsewhere when it drifts.
-template <SurfaceKind kKind>
+template <SurfaceKind kKind, bool kDrifts>
 HWY_INLINE Evaluation evaluate(const TracePlan& plan, const Field& field, const Packet& packet, const WidePoint& x,
                                const WidePoint& direction, OctaveCache& cache, TraceCounters& counters) {
     const FloatTag d;
@@ -77,7 +77,8 @@ HWY_INLINE Evaluation evaluate(const TracePlan& plan, const Field& field, const 
     const FloatVec hint = hn::Load(d, packet.hint), span = hn::Mul(hint, hn::Load(d, packet.speed));
     const FloatVec dx = to_float(direction.x), dy = to_float(direction.y), dz = to_float(direction.z);
     const Base base = base_at<kKind>(field, x, direction);
-    const WidePoint noise_x = field.drifts() ? add(x, load_point(packet.noise_shift)) : x;
+    WidePoint noise_x = x;
+    if constexpr (kDrifts) noise_x = add(x, load_point(packet.noise_shift));
     Evaluation at{base.value, hn::Zero(d), base.slope, base.slope, hn::Zero(d), no_bounds(), {}, hn::Zero(dw)};
     at.error = hn::MulAdd(hn::Abs(base.value), hn::Set(d, plan.error_relative), hn::Set(d, plan.error_absolute));
     auto open = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
@@ -184,7 +185,7 @@ HWY_INLINE void report(const Packet& packet, std::size_t lane, HitState state, f
 }
 
 // One step of every active lane; lanes that finish report and become idle.
-template <SurfaceKind kKind>
+template <SurfaceKind kKind, bool kDrifts>
 HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, std::span<Hit> hits,
                      TraceCounters& counters) {
     const FloatTag d;
@@ -193,7 +194,7 @@ HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, 
     const Wide s = load_wide(packet.s);
     const WidePoint x = point_at(load_point(packet.origin), direction, s);
     OctaveCache cache;
-    Evaluation at = evaluate<kKind>(plan, field, packet, x, direction, cache, counters);
+    Evaluation at = evaluate<kKind, kDrifts>(plan, field, packet, x, direction, cache, counters);
     hn::Store(hn::Add(hn::Load(dw, packet.evaluations), at.octaves), dw, packet.evaluations);
     settle_doubt(field, plan, packet, x, at, counters);
 
@@ -242,9 +243,9 @@ HWY_INLINE void refill(const Field& field, const TracePlan& plan, std::span<cons
     }
 }
 
-template <SurfaceKind kKind>
-HWY_NOINLINE void trace_kind(const Field& field, const TracePlan& plan, std::span<const Ray> rays, std::span<Hit> hits,
-                             TraceCounters& counters) {
+template <SurfaceKind kKind, bool kDrifts>
+HWY_NOINLINE void trace_moving(const Field& field, const TracePlan& plan, std::span<const Ray> rays,
+                               std::span<Hit> hits, TraceCounters& counters) {
     const std::size_t lanes = hn::Lanes(FloatTag());
     Packet packet;
     std::fill_n(packet.ray, lanes, kNoRay);
@@ -253,8 +254,15 @@ HWY_NOINLINE void trace_kind(const Field& field, const TracePlan& plan, std::spa
             refill(field, plan, rays, hits, next, packet);
         }
         if (packet.active_count == 0) return;
-        step<kKind>(field, plan, packet, hits, counters);
+        step<kKind, kDrifts>(field, plan, packet, hits, counters);
     }
+}
+
+template <SurfaceKind kKind>
+void trace_kind(const Field& field, const TracePlan& plan, std::span<const Ray> rays, std::span<Hit> hits,
+                TraceCounters& counters) {
+    if (field.drifts()) return trace_moving<kKind, true>(field, plan, rays, hits, counters);
+    trace_moving<kKind, false>(field, plan, rays, hits, counters);
 }
 
 void Trace(const Field& field, const TracePlan& plan, std::span<const Ray> rays, std::span<Hit> hits,

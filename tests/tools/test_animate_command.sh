@@ -36,7 +36,7 @@ check_other_frames() {
         "*p.0001.exr is there and is not the frame asked for*'N = 2', not 'N = 3'*--overwrite*" \
         animate planet --size 16x9 -N 3 --frames 0-2 -o p.exr
     expect 'before anything is rendered' "$(echo *)" 'p.0001.exr p.0001.png p.0002.exr p.0002.png'
-    head -c 300 p.0002.png >cut && mv cut p.0002.png
+    head -c 300 p.0002.png >short.tmp && mv short.tmp p.0002.png
     refuses 'a damaged frame is refused' 2 '*p.0002.png is there and is not the frame*' \
         animate planet "${tiny[@]}" --frames 1-2 -o p.png
     echo text >p.0001.png
