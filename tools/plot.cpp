@@ -1,0 +1,144 @@
+#include "tools/plot.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "src/image/image_error.h"
+#include "src/image/output_file.h"
+#include "tools/plot_script.h"
+#include "tools/process.h"
+
+namespace strata::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path gnuplot() { return find_program("gnuplot", "gnuplot-nox"); }
+
+PlotFormat format_of(const fs::path& path) {
+    const std::string extension = path.extension().string();
+    if (extension == ".png") return PlotFormat::png;
+    if (extension == ".svg") return PlotFormat::svg;
+    throw PlotError(fmt::format("{}: allowed: a plot's name ends in .png or .svg", path.string()));
+}
+
+// Where in a plot a value stands, for messages.
+std::string place_of(const PlotPanel& panel, const PlotSeries& series) {
+    return fmt::format("plot '{}', series '{}'", panel.title, series.name);
+}
+
+void check_values(const std::string& place, const char* name, const std::vector<double>& values, bool positive) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (std::isfinite(values[i]) && (!positive || values[i] > 0)) continue;
+        throw PlotError(fmt::format("{}: {}[{}] is {}, allowed: {} numbers", place, name, i, values[i],
+                                    positive ? "positive, on a log axis," : "finite"));
+    }
+}
+
+void check_bounds(const PlotPanel& panel, const char* name, const PlotAxis& axis) {
+    for (const auto& bound : {axis.min, axis.max}) {
+        if (!bound || (std::isfinite(*bound) && (!axis.log || *bound > 0))) continue;
+        throw PlotError(fmt::format("plot '{}': the {} axis ends at {}", panel.title, name, *bound));
+    }
+    if (axis.min && axis.max && !(*axis.min < *axis.max)) {
+        throw PlotError(
+            fmt::format("plot '{}': the {} axis runs from {} to {}", panel.title, name, *axis.min, *axis.max));
+    }
+    for (const PlotTic& tic : axis.tics) {
+        if (!std::isfinite(tic.at))
+            throw PlotError(fmt::format("plot '{}': a {} tic at {}", panel.title, name, tic.at));
+    }
+}
+
+void check_series(const PlotPanel& panel, const PlotSeries& series) {
+    const std::string place = place_of(panel, series);
+    if (series.x.empty()) throw PlotError(place + ": no points");
+    if (series.y.size() != series.x.size()) {
+        throw PlotError(fmt::format("{}: {} x for {} y", place, series.x.size(), series.y.size()));
+    }
+    for (const auto* extra : {&series.y_error, &series.point_size}) {
+        if (!extra->empty() && extra->size() != series.x.size()) {
+            throw PlotError(fmt::format("{}: {} errors or sizes for {} points", place, extra->size(), series.x.size()));
+        }
+    }
+    check_values(place, "x", series.x, panel.x.log);
+    check_values(place, "y", series.y, panel.y.log);
+    check_values(place, "y_error", series.y_error, false);
+    check_values(place, "point_size", series.point_size, false);
+}
+
+void check_panel(const PlotPanel& panel) {
+    if (panel.series.empty()) throw PlotError(fmt::format("plot '{}': no series", panel.title));
+    check_bounds(panel, "x", panel.x);
+    check_bounds(panel, "y", panel.y);
+    for (const PlotSeries& series : panel.series) check_series(panel, series);
+    for (const PlotMarker& marker : panel.markers) {
+        if (!std::isfinite(marker.at))
+            throw PlotError(fmt::format("plot '{}': a marker at {}", panel.title, marker.at));
+    }
+}
+
+// A folder of its own for gnuplot's script and output, removed with both.
+class WorkFolder {
+  public:
+    WorkFolder() {
+        std::string pattern = (fs::temp_directory_path() / "strata-plot-XXXXXX").string();
+        if (::mkdtemp(pattern.data()) == nullptr) throw PlotError(pattern + ": this folder cannot be made");
+        path_ = pattern;
+    }
+    ~WorkFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    WorkFolder(const WorkFolder&) = delete;
+    WorkFolder& operator=(const WorkFolder&) = delete;
+
+    fs::path operator/(const char* name) const { return path_ / name; }
+
+  private:
+    fs::path path_;
+};
+
+std::vector<unsigned char> bytes_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+const std::vector<std::string>& plot_palette() {
+    static const std::vector<std::string> colours{"#0072B2", "#D55E00", "#009E73", "#E69F00",
+                                                  "#CC79A7", "#000000", "#56B4E9", "#F0E442"};
+    return colours;
+}
+
+void check_plot(const Plot& plot) {
+    if (plot.panels.empty()) throw PlotError(fmt::format("plot '{}': no panels", plot.title));
+    if (plot.columns < 1 || plot.width < 1 || plot.height < 1 || plot.font_size < 1) {
+        throw PlotError(fmt::format("plot '{}': its columns, size and font size must be 1 at least", plot.title));
+    }
+    for (const PlotPanel& panel : plot.panels) check_panel(panel);
+}
+
+void write_plot(const Plot& plot, const fs::path& path) {
+    const PlotFormat format = format_of(path);
+    check_plot(plot);
+    const fs::path program = gnuplot();
+    const WorkFolder folder;
+    const fs::path script = folder / "plot.gp", drawn = folder / "plot";
+    std::ofstream(script, std::ios::binary) << plot_script(plot, format, drawn.string());
+    // -d: no start-up files of the user or the system.
+    run_program(program, {"-d", script.string()});
+    const std::vector<unsigned char> bytes = bytes_of(drawn);
+    if (bytes.empty()) throw ProcessError("gnuplot drew nothing for " + path.string());
+    image::replace_file(path, bytes);
+}
+
+void check_plotter() { gnuplot(); }
+
+}  // namespace strata::tools
