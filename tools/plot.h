@@ -16,7 +16,8 @@ class PlotError : public std::runtime_error {
 };
 
 // filled: the area between the curve and the bottom of the panel; with y_error, the band y - y_error .. y + y_error.
-enum class PlotStyle { line, dashed, dotted, points, line_points, filled };
+// discs: filled circles whose radii, in units of the x axis, are point_scale times point_size.
+enum class PlotStyle { line, dashed, dotted, points, line_points, filled, discs };
 
 enum class PlotShape { dot, circle, square, triangle, diamond, cross };
 
@@ -24,7 +25,7 @@ struct PlotSeries {
     std::string name;  // in the legend; empty: not there
     std::vector<double> x, y;
     std::vector<double> y_error;     // half the height of a bar; empty: none. On a log axis bars end above zero
-    std::vector<double> point_size;  // of each point, 1 being point_scale; empty: all alike
+    std::vector<double> point_size;  // of each point, 1 being point_scale; empty: all 1
     PlotStyle style = PlotStyle::line;
     std::optional<int> colour;         // of plot_palette(), counted round; default the series' place in its panel
     std::optional<PlotShape> shape{};  // default by the series' place
@@ -41,7 +42,7 @@ struct PlotAxis {
     std::string label;  // with its unit
     bool log = false;
     std::optional<double> min, max;  // default by the data
-    std::vector<PlotTic> tics;       // default: gnuplot's on a linear axis, powers of ten on a log one
+    std::vector<PlotTic> tics{};     // default: gnuplot's on a linear axis, powers of ten on a log one
     bool grid = true;
 };
 

@@ -22,6 +22,11 @@ std::string block_name(std::size_t panel, std::size_t series) { return fmt::form
 
 bool has_points(PlotStyle style) { return style == PlotStyle::points || style == PlotStyle::line_points; }
 
+// Whether each point has a size of its own in the data.
+bool has_sizes(const PlotSeries& series) {
+    return series.style == PlotStyle::discs || (has_points(series.style) && !series.point_size.empty());
+}
+
 // The lower end of an error bar; on a log axis it stays visible.
 double lower_end(const PlotSeries& series, std::size_t i, bool log) {
     const double end = series.y[i] - series.y_error[i];
@@ -37,7 +42,10 @@ std::string data_block(const PlotPanel& panel, std::size_t panel_index, std::siz
         if (!series.y_error.empty()) {
             text += fmt::format(" {:.17g} {:.17g}", lower_end(series, i, panel.y.log), series.y[i] + series.y_error[i]);
         }
-        if (!series.point_size.empty()) text += fmt::format(" {:.17g}", series.point_scale * series.point_size[i]);
+        if (has_sizes(series)) {
+            const double size = series.point_size.empty() ? 1.0 : series.point_size[i];
+            text += fmt::format(" {:.17g}", series.point_scale * size);
+        }
         text += "\n";
     }
     return text + "EOD\n";
@@ -79,6 +87,9 @@ std::string styled(const PlotSeries& series, std::size_t place) {
         case PlotStyle::filled:
             return fmt::format("with filledcurves{} fillstyle transparent solid 0.3 noborder fillcolor rgb {}",
                                series.y_error.empty() ? " x1" : "", colour);
+        case PlotStyle::discs:
+            return fmt::format("with circles fillstyle solid noborder fillcolor rgb {} linecolor rgb {}", colour,
+                               colour);
         default:
             return fmt::format("with lines linecolor rgb {} linewidth {} {}", colour, width, dash_of(series.style));
     }
@@ -86,8 +97,7 @@ std::string styled(const PlotSeries& series, std::size_t place) {
 
 std::string columns_of(const PlotSeries& series) {
     if (series.style == PlotStyle::filled && !series.y_error.empty()) return "1:3:4";
-    const bool sized = has_points(series.style) && !series.point_size.empty();
-    if (!sized) return "1:2";
+    if (!has_sizes(series)) return "1:2";
     return series.y_error.empty() ? "1:2:3" : "1:2:5";
 }
 
@@ -143,7 +153,8 @@ std::string axis_commands(const PlotAxis& axis, const PlotPanel& panel, bool is_
         for (const PlotTic& tic : tics) items.push_back(gnuplot_string(tic.label) + " " + number(tic.at));
         text += fmt::format("set {}tics ({})\n", name, fmt::join(items, ", "));
     }
-    if (axis.grid) text += fmt::format("set grid {}tics linecolor rgb '#dddddd' linewidth 1 dashtype 1\n", name);
+    if (axis.grid)
+        text += fmt::format("set grid {}tics linetype 1 linecolor rgb '#cccccc' linewidth 1 dashtype 1\n", name);
     return text;
 }
 
@@ -178,7 +189,7 @@ const char* legend_command(PlotLegend legend) {
         case PlotLegend::bottom_right:
             return "set key inside right bottom Left reverse vertical\n";
         case PlotLegend::below:
-            return "set key outside below center Left reverse horizontal\n";
+            return "set key outside bottom center Left reverse horizontal\n";
         case PlotLegend::right:
             return "set key outside right top Left reverse vertical\n";
     }
@@ -237,8 +248,10 @@ std::string plot_script(const Plot& plot, PlotFormat format, std::string_view ou
     text += "set border linecolor rgb '#444444'\n";
     const std::size_t columns = static_cast<std::size_t>(plot.columns);
     const std::size_t rows = (plot.panels.size() + columns - 1) / columns;
-    text += fmt::format("set multiplot layout {},{} rowsfirst title {} font ',{}'\n", rows, columns,
-                        gnuplot_string(plot.title), plot.font_size + 2);
+    text += fmt::format("set multiplot layout {},{} rowsfirst", rows, columns);
+    if (!plot.title.empty())
+        text += fmt::format(" title {} font ',{}'", gnuplot_string(plot.title), plot.font_size + 2);
+    text += "\n";
     for (std::size_t panel = 0; panel < plot.panels.size(); ++panel) text += panel_commands(plot.panels[panel], panel);
     return text + "unset multiplot\nunset output\n";
 }

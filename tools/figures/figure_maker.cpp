@@ -1,0 +1,145 @@
+#include "tools/figures/figure_maker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "src/image/output_file.h"
+#include "src/image/write.h"
+#include "src/scene/validate.h"
+#include "tools/picture_metadata.h"
+#include "tools/render_picture.h"
+#include "tools/standard_output.h"
+
+namespace strata::tools::figures {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+std::string record_line(const Plan& plan, Size size) { return record_of(plan, size).dump() + "\n"; }
+
+// One meter for the renders of many figures.
+class TotalProgress {
+  public:
+    TotalProgress(double total_work, bool quiet) : total_work_(total_work), printer_(quiet) {}
+
+    render::ProgressCallback of_part(const Part& part) {
+        return [this, work = part.work(), show = printer_.callback()](const render::Progress& progress) {
+            part_rays_ = progress.rays;
+            show({.fraction = (done_work_ + work * progress.fraction) / total_work_,
+                  .rays = done_rays_ + progress.rays,
+                  .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count()});
+        };
+    }
+
+    void finish(const Part& part, std::uint64_t rays) {
+        done_work_ += part.work();
+        done_rays_ += rays;
+    }
+
+    void clear() { printer_.clear(); }
+
+  private:
+    double total_work_;
+    render::ProgressPrinter printer_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    double done_work_ = 0;
+    std::uint64_t done_rays_ = 0, part_rays_ = 0;
+};
+
+class Maker {
+  public:
+    Maker(const MakeOptions& options, const render::CancelToken& cancel, double total_work)
+        : options_(options), cancel_(cancel), progress_(total_work, options.quiet) {}
+
+    void make(const Figure& figure, const Plan& plan) {
+        // Without its record a figure counts as unfinished, so that an interruption leaves none that is half new.
+        fs::remove(record_path(options_.folder, plan.number));
+        std::vector<image::Picture> pictures;
+        for (const Part& part : plan.parts) pictures.push_back(render_part(part));
+        stop_if_cancelled();
+        figure.draw(plan, pictures, options_.folder);
+        const std::string record = record_line(plan, options_.size);
+        image::replace_file(record_path(options_.folder, plan.number),
+                            std::span(reinterpret_cast<const unsigned char*>(record.data()), record.size()));
+        tell("made", plan);
+    }
+
+    void keep(const Plan& plan) { tell("kept", plan); }
+
+  private:
+    void stop_if_cancelled() const {
+        if (cancel_.requested()) throw Interrupted();
+    }
+
+    image::Picture render_part(const Part& part) {
+        stop_if_cancelled();
+        RenderedPicture rendered =
+            render_picture(part.scene, part.window, render::Tracer::fast,
+                           {.threads = options_.threads, .on_progress = progress_.of_part(part), .cancel = &cancel_});
+        if (rendered.result.cancelled) throw Interrupted();
+        progress_.finish(part, rendered.result.counters.rays);
+        image::write_picture(options_.folder / part.file, rendered.picture,
+                             picture_metadata(part.scene, part.window, "fast", "float"),
+                             {.exr_format = image::ExrFormat::floating});
+        return std::move(rendered.picture);
+    }
+
+    void tell(const char* what, const Plan& plan) {
+        progress_.clear();
+        if (options_.quiet) return;
+        print_out(fmt::format("{}     {}\n", what, (options_.folder / plan.shown.front().file).string()));
+        flush_out();
+    }
+
+    const MakeOptions& options_;
+    const render::CancelToken& cancel_;
+    TotalProgress progress_;
+};
+
+double work_of(const Plan& plan) {
+    double work = 0;
+    for (const Part& part : plan.parts) work += part.work();
+    return work;
+}
+
+}  // namespace
+
+fs::path record_path(const fs::path& folder, int number) { return folder / fmt::format("figure-{}.json", number); }
+
+bool is_made(const MakeOptions& options, const Plan& plan) {
+    const auto there = [&](const std::string& file) { return fs::is_regular_file(options.folder / file); };
+    return text_of(record_path(options.folder, plan.number)) == record_line(plan, options.size) &&
+           std::ranges::all_of(plan.shown, there, &Shown::file) &&
+           std::ranges::all_of(plan.parts, there, &Part::file) && std::ranges::all_of(plan.data, there);
+}
+
+void make_figures(const std::vector<Figure>& figures, const MakeOptions& options, const render::CancelToken& cancel) {
+    std::vector<Plan> plans;
+    std::vector<bool> kept;
+    double work = 0;
+    for (const Figure& figure : figures) {
+        plans.push_back(figure.plan(options.size));
+        for (const Part& part : plans.back().parts) scene::validate(part.scene, part.file);
+        kept.push_back(!options.overwrite && is_made(options, plans.back()));
+        if (!kept.back()) work += work_of(plans.back());
+    }
+    Maker maker(options, cancel, std::max(work, 1.0));
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+        if (cancel.requested()) throw Interrupted();
+        if (kept[i])
+            maker.keep(plans[i]);
+        else
+            maker.make(figures[i], plans[i]);
+    }
+}
+
+}  // namespace strata::tools::figures

@@ -1,0 +1,35 @@
+// Making figures: rendering their parts with progress over all of them, drawing them, and writing what they are.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <vector>
+
+#include "src/render/cancel.h"
+#include "src/render/progress_printer.h"
+#include "tools/figures/figure.h"
+
+namespace strata::tools::figures {
+
+struct MakeOptions {
+    std::filesystem::path folder;
+    Size size = Size::paper;
+    int threads = 0;
+    bool quiet = false;
+    bool overwrite = false;
+};
+
+// Thrown when the token was cancelled: what is finished stays.
+struct Interrupted {};
+
+// "figure-6.json": one line, written last, so that a figure that has it is whole.
+std::filesystem::path record_path(const std::filesystem::path& folder, int number);
+
+// Whether the figure is there already, whole and as this plan would make it.
+bool is_made(const MakeOptions& options, const Plan& plan);
+
+// Plans every figure, renders, draws. Figures that are made already are kept unless options.overwrite. Prints a line a
+// figure unless quiet. Throws ImageError, ProcessError, PlotError, Interrupted.
+void make_figures(const std::vector<Figure>& figures, const MakeOptions& options, const render::CancelToken& cancel);
+
+}  // namespace strata::tools::figures

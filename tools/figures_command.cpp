@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <system_error>
+
+#include "src/image/output_file.h"
+#include "src/image/text.h"
+#include "tools/commands.h"
+#include "tools/errors.h"
+#include "tools/figures/figure_maker.h"
+#include "tools/plot.h"
+#include "tools/scene_argument.h"
+#include "tools/standard_output.h"
+
+namespace strata::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+using figures::Figure;
+
+constexpr int kMostThreads = 1024;
+
+struct FiguresRequest {
+    std::string only, size = "paper", folder = "figures", threads = "0";
+    bool quiet = false, overwrite = false;
+};
+
+std::vector<std::string> split(const std::string& text) {
+    std::vector<std::string> words;
+    for (std::size_t begin = 0;;) {
+        const std::size_t end = text.find(',', begin);
+        words.push_back(text.substr(begin, end - begin));
+        if (end == std::string::npos) return words;
+        begin = end + 1;
+    }
+}
+
+std::vector<Figure> chosen_figures(const std::string& only) {
+    const auto all = figures::all_figures();
+    if (only.empty()) return {all.begin(), all.end()};
+    std::set<int> numbers;
+    for (const std::string& word : split(only)) {
+        numbers.insert(parse_integer("--only", word, all.front().number, all.back().number));
+    }
+    std::vector<Figure> chosen;
+    for (const Figure& figure : all) {
+        if (numbers.contains(figure.number)) chosen.push_back(figure);
+    }
+    return chosen;
+}
+
+figures::Size parse_size(const std::string& name) {
+    const auto found = std::ranges::find(figures::kSizeNames, name);
+    if (found == std::end(figures::kSizeNames)) {
+        throw UsageError(fmt::format("--size {}: allowed: small, paper, large", name));
+    }
+    return static_cast<figures::Size>(found - std::begin(figures::kSizeNames));
+}
+
+// The folder, made if need be; everything else that the figures need is there.
+void check_surroundings(const std::vector<Figure>& chosen, const fs::path& folder) {
+    if (std::ranges::any_of(chosen, &Figure::is_plot)) check_plotter();
+    image::check_fonts();
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw UsageError(fmt::format("-o {}: {}", folder.string(), error.message()));
+    for (const Figure& figure : chosen) image::check_replaceable(figures::record_path(folder, figure.number));
+}
+
+int figures_command(const FiguresRequest& request) {
+    static render::CancelToken cancel;
+    const std::vector<Figure> chosen = chosen_figures(request.only);
+    const figures::MakeOptions options{.folder = request.folder,
+                                       .size = parse_size(request.size),
+                                       .threads = parse_integer("--threads", request.threads, 0, kMostThreads),
+                                       .quiet = request.quiet,
+                                       .overwrite = request.overwrite};
+    check_surroundings(chosen, options.folder);
+    render::cancel_on_signals(cancel);
+    try {
+        figures::make_figures(chosen, options, cancel);
+    } catch (const figures::Interrupted&) {
+        if (!options.quiet) print_out("stopped  finished figures are kept: the same command makes the rest\n");
+    }
+    return render::cancelling_signal() != 0 ? kExitSignal + render::cancelling_signal() : 0;
+}
+
+}  // namespace
+
+void add_figures_command(CLI::App& program, int& exit_code) {
+    CLI::App* command = program.add_subcommand("figures", "Make the figures of Gamito & Maddock 2006 anew");
+    auto request = std::make_shared<FiguresRequest>();
+    command->add_option("--only", request->only, "Figures to make, 1 to 8, separated by commas; default all")
+        ->type_name("K,K...");
+    command->add_option("-o,--output", request->folder, "Folder to write to, made if it is not there")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--size", request->size,
+            "small, paper or large: lengths in pixels at half, once and twice the paper's; the numbers of samples "
+            "stay")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+        ->type_name("n")
+        ->capture_default_str();
+    command->add_flag("--overwrite", request->overwrite, "Make figures anew that are there already");
+    command->add_flag("--quiet", request->quiet, "No progress and no list of what was made");
+    command->footer(
+        "1  B-splines and their spectra          5  the whole surface\n"
+        "2  iterations of the inverse            6  an area of it: none; cubic with N = 2, 3, 10\n"
+        "3  sampling patterns                    7  another: none; m = 1, 4, 15 at N = 10\n"
+        "4  zone plate and receding checker      8  the wagon wheel: box and cubic in time\n"
+        "Each is figure-K.png (plots: figure-K.svg too), the panels and float EXR parts it was assembled from, and\n"
+        "figure-K.json: one line with every parameter and with what was chosen where the paper does not tell.\n"
+        "A figure that is there, whole and with the same parameters, is kept.\n"
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, 130 or 143 interrupted.");
+    command->callback([request, &exit_code] { exit_code = figures_command(*request); });
+}
+
+}  // namespace strata::tools
