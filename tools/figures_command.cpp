@@ -10,6 +10,7 @@
 #include "tools/commands.h"
 #include "tools/errors.h"
 #include "tools/figures/figure_maker.h"
+#include "tools/figures/page.h"
 #include "tools/plot.h"
 #include "tools/scene_argument.h"
 #include "tools/standard_output.h"
@@ -22,10 +23,11 @@ namespace fs = std::filesystem;
 using figures::Figure;
 
 constexpr int kMostThreads = 1024;
+constexpr const char* kPage = "index.html";
 
 struct FiguresRequest {
     std::string only, size = "paper", folder = "figures", threads = "0";
-    bool quiet = false, overwrite = false;
+    bool quiet = false, overwrite = false, html = false;
 };
 
 std::vector<std::string> split(const std::string& text) {
@@ -68,6 +70,7 @@ void check_surroundings(const std::vector<Figure>& chosen, const fs::path& folde
     fs::create_directories(folder, error);
     if (error) throw UsageError(fmt::format("-o {}: {}", folder.string(), error.message()));
     for (const Figure& figure : chosen) image::check_replaceable(figures::record_path(folder, figure.number));
+    image::check_replaceable(folder / kPage);
 }
 
 int figures_command(const FiguresRequest& request) {
@@ -82,6 +85,10 @@ int figures_command(const FiguresRequest& request) {
     render::cancel_on_signals(cancel);
     try {
         figures::make_figures(chosen, options, cancel);
+        if (request.html) {
+            figures::write_page(options.folder);
+            if (!options.quiet) print_out(fmt::format("made     {}\n", (options.folder / kPage).string()));
+        }
     } catch (const figures::Interrupted&) {
         if (!options.quiet) print_out("stopped  finished figures are kept: the same command makes the rest\n");
     }
@@ -109,6 +116,8 @@ void add_figures_command(CLI::App& program, int& exit_code) {
         ->type_name("n")
         ->capture_default_str();
     command->add_flag("--overwrite", request->overwrite, "Make figures anew that are there already");
+    command->add_flag("--html", request->html,
+                      "Write DIR/index.html too: every figure and film of the folder, with captions and sliders");
     command->add_flag("--quiet", request->quiet, "No progress and no list of what was made");
     command->footer(
         "1  B-splines and their spectra          5  the whole surface\n"
@@ -117,7 +126,8 @@ void add_figures_command(CLI::App& program, int& exit_code) {
         "4  zone plate and receding checker      8  the wagon wheel: box and cubic in time\n"
         "Each is figure-K.png (plots: figure-K.svg too), the panels and float EXR parts it was assembled from, and\n"
         "figure-K.json: one line with every parameter and with what was chosen where the paper does not tell.\n"
-        "A figure that is there, whole and with the same parameters, is kept.\n"
+        "A figure that is there, whole, with the same parameters and by the same version, is kept; plots are drawn "
+        "anew.\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, 130 or 143 interrupted.");
     command->callback([request, &exit_code] { exit_code = figures_command(*request); });
 }

@@ -57,7 +57,7 @@ std::vector<PlotSeries> curves(double from, double to, const Spline& spline, con
         all.push_back(curve(fmt::format("m = {}", m), colour_of(m), from, to, [&](double x) { return spline(m, x); }));
     }
     for (const int m : kGaussianOrders) {
-        all.push_back(curve(m == kGaussianOrders[0] ? "Gaussian, variance m/12" : "", colour_of(m), from, to,
+        all.push_back(curve(m == kGaussianOrders[0] ? "Gaussian" : "", colour_of(m), from, to,
                             [&](double x) { return limit(m, x); }));
         all.back().style = PlotStyle::dashed;
         all.back().line_width = 1.5;
@@ -84,7 +84,6 @@ void mark_nyquist(PlotPanel& panel, const Value& value, const Text& text) {
 PlotPanel density_panel() {
     PlotPanel panel;
     panel.title = "B-splines n_m, centred";
-    panel.legend = PlotLegend::below;
     panel.x = {.label = "x / px", .min = -kReach_px, .max = kReach_px};
     panel.y = {.label = "n_m(x + m/2) / px⁻¹", .min = 0, .max = 1.45};
     panel.series = curves(
@@ -101,7 +100,6 @@ PlotPanel gain_panel() {
     for (PlotSeries& series : panel.series) series.name.clear();
     mark_nyquist(
         panel, [](double g) { return g; }, [](double g) { return fmt::format("{:.3g}", g); });
-    panel.legend = PlotLegend::below;
     return panel;
 }
 
@@ -115,7 +113,7 @@ PlotPanel decibel_panel() {
         [](int m, double f) { return decibels(gaussian_gain(m, f)); });
     for (PlotSeries& series : panel.series) series.name.clear();
     mark_nyquist(panel, decibels, [](double g) { return fmt::format("{:.1f} dB", decibels(g)); });
-    panel.legend = PlotLegend::below;
+    panel.legend = PlotLegend::none;
     return panel;
 }
 

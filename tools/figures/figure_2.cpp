@@ -17,7 +17,7 @@ constexpr int kOrders[] = {2, 3, 4, 8, 15};
 constexpr int kClaimed = 8;  // "the number of iterations always remains small": at most 8
 constexpr double kLeast = 1e-12;
 constexpr int kPoints = 240;
-constexpr double kErrorFloor_px = 1e-17;  // exact zeros are drawn here
+constexpr double kErrorFloor_px = 1e-18;  // exact zeros are drawn here
 
 // From kLeast to 1/2, evenly in the logarithm; the other half mirrors it.
 std::vector<double> probabilities() {
@@ -51,7 +51,7 @@ PlotPanel panel_of(const std::string& title, const std::string& y_label, std::ve
 
 void mark_claim(PlotPanel& panel) {
     panel.markers.push_back(
-        {.kind = PlotMarker::Kind::horizontal, .at = kClaimed, .label = "8: the paper's \"always\"", .label_at = 0.45});
+        {.kind = PlotMarker::Kind::horizontal, .at = kClaimed, .label = "8: the paper's \"always\"", .label_at = 0.5});
 }
 
 PlotPanel newton_panel() {
@@ -69,7 +69,7 @@ PlotPanel halley_panel(const PlotAxis& axis) {
     panel.y = axis;
     // Lines that lie on each other, drawn one inside the other.
     for (std::size_t i = 0; i < panel.series.size(); ++i) {
-        panel.series[i].line_width = 2.0 * static_cast<double>(panel.series.size() - i);
+        panel.series[i].line_width = 1.5 * static_cast<double>(panel.series.size() - i);
     }
     mark_claim(panel);
     return panel;
@@ -84,6 +84,7 @@ PlotPanel error_panel() {
     panel.y.log = true;
     panel.y.min = kErrorFloor_px;
     panel.y.max = 10;
+    panel.legend = PlotLegend::bottom_left;
     panel.markers.push_back({.kind = PlotMarker::Kind::horizontal,
                              .at = filter::kInverseError,
                              .label = "ours, everywhere below",

@@ -129,7 +129,8 @@ void make_figures(const std::vector<Figure>& figures, const MakeOptions& options
     for (const Figure& figure : figures) {
         plans.push_back(figure.plan(options.size));
         for (const Part& part : plans.back().parts) scene::validate(part.scene, part.file);
-        kept.push_back(!options.overwrite && is_made(options, plans.back()));
+        // Plots take no time.
+        kept.push_back(!options.overwrite && !figure.is_plot && is_made(options, plans.back()));
         if (!kept.back()) work += work_of(plans.back());
     }
     Maker maker(options, cancel, std::max(work, 1.0));

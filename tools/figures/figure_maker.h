@@ -28,8 +28,8 @@ std::filesystem::path record_path(const std::filesystem::path& folder, int numbe
 // Whether the figure is there already, whole and as this plan would make it.
 bool is_made(const MakeOptions& options, const Plan& plan);
 
-// Plans every figure, renders, draws. Figures that are made already are kept unless options.overwrite. Prints a line a
-// figure unless quiet. Throws ImageError, ProcessError, PlotError, Interrupted.
+// Plans every figure, renders, draws. Figures that are made already are kept unless they are plots or
+// options.overwrite. Prints a line a figure unless quiet. Throws ImageError, ProcessError, PlotError, Interrupted.
 void make_figures(const std::vector<Figure>& figures, const MakeOptions& options, const render::CancelToken& cancel);
 
 }  // namespace strata::tools::figures

@@ -25,6 +25,7 @@ struct Layout {
 Layout layout_of(const std::vector<LabelledPanel>& panels) {
     Layout layout{panels.front().canvas.width, panels.front().canvas.height, 0};
     for (const LabelledPanel& panel : panels) {
+        if (panel.label.empty()) continue;
         const std::string text = wrap(panel.label, layout.panel_width, kLabelStyle);
         layout.label_height = std::max(layout.label_height, line_count(text) * line_height(kLabelStyle));
     }
