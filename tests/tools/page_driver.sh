@@ -11,11 +11,12 @@ open_browser() { # width height options...
         --disable-background-networking --no-first-run "--user-data-dir=$scratch/profile" "--window-size=$width,$height" \
         --remote-debugging-pipe "$@" about:blank 3<"$scratch/to" 4>"$scratch/from" >/dev/null 2>"$scratch/browser.log" &
     browser=$!
+    trap 'kill "$browser" 2>/dev/null; wait "$browser" 2>/dev/null; rm -rf -- "$scratch"' EXIT
     exec {to}>"$scratch/to" {from}<"$scratch/from"
     rm "$scratch/to" "$scratch/from"
     last_id=0 session=''
     : >"$scratch/events"
-    call Target.createTarget "{\"url\":\"about:blank\",\"width\":$width,\"height\":$height}" || return
+    call Target.createTarget '{"url":"about:blank"}' || return
     [[ $answer =~ \"targetId\":\"([^\"]*)\" ]] || return
     call Target.attachToTarget "{\"targetId\":\"${BASH_REMATCH[1]}\",\"flatten\":true}" || return
     [[ $answer =~ \"sessionId\":\"([^\"]*)\" ]] || return
@@ -28,7 +29,6 @@ close_browser() {
     session='' call Browser.close '{}'
     exec {to}>&- {from}<&-
     wait "$browser"
-    rm -rf "$scratch/profile"
 }
 
 # Sets answer to what the browser returns; events that come before it go to $scratch/events.
@@ -45,7 +45,7 @@ call() { # method parameters
 
 # Sets value to what a JavaScript expression gives, as a string. The expression holds no double quotes.
 evaluate() { # expression
-    call Runtime.evaluate "{\"expression\":\"String($1)\",\"awaitPromise\":true,\"returnByValue\":true}"
+    call Runtime.evaluate "{\"expression\":\"Promise.resolve($1).then(String)\",\"awaitPromise\":true,\"returnByValue\":true}"
     value=''
     if [[ $answer =~ \"type\":\"string\",\"value\":\"([^\"]*)\" ]]; then value=${BASH_REMATCH[1]}; else echo "$answer" >&2; fi
 }
