@@ -10,8 +10,10 @@
 #include "tools/commands.h"
 #include "tools/errors.h"
 #include "tools/figures/figure_maker.h"
+#include "tools/figures/films.h"
 #include "tools/figures/page.h"
 #include "tools/plot.h"
+#include "tools/process.h"
 #include "tools/scene_argument.h"
 #include "tools/standard_output.h"
 
@@ -27,7 +29,7 @@ constexpr const char* kPage = "index.html";
 
 struct FiguresRequest {
     std::string only, size = "paper", folder = "figures", threads = "0";
-    bool quiet = false, overwrite = false, html = false;
+    bool quiet = false, overwrite = false, html = false, no_films = false;
 };
 
 std::vector<std::string> split(const std::string& text) {
@@ -73,6 +75,31 @@ void check_surroundings(const std::vector<Figure>& chosen, const fs::path& folde
     image::check_replaceable(folder / kPage);
 }
 
+bool makes_films(const FiguresRequest& request) { return request.html && !request.no_films; }
+
+void say(const char* what, const fs::path& path, bool quiet) {
+    if (!quiet) print_out(fmt::format("{}     {}\n", what, path.string()));
+}
+
+void make_films(const figures::MakeOptions& options, const std::string& threads) {
+    for (const figures::Film& film : figures::films(options.size)) {
+        const bool kept = !options.overwrite && figures::is_made(film, options.folder);
+        if (!kept && !figures::make_film(film, {.folder = options.folder,
+                                                .size = options.size,
+                                                .threads = threads,
+                                                .quiet = options.quiet,
+                                                .overwrite = options.overwrite})) {
+            throw figures::Interrupted();
+        }
+        if (kept) say("kept", options.folder / film_files(film).front(), options.quiet);
+    }
+}
+
+void make_page(const figures::MakeOptions& options) {
+    figures::write_page(options.folder);
+    say("made", options.folder / kPage, options.quiet);
+}
+
 int figures_command(const FiguresRequest& request) {
     static render::CancelToken cancel;
     const std::vector<Figure> chosen = chosen_figures(request.only);
@@ -82,13 +109,12 @@ int figures_command(const FiguresRequest& request) {
                                        .quiet = request.quiet,
                                        .overwrite = request.overwrite};
     check_surroundings(chosen, options.folder);
+    if (makes_films(request)) find_program("ffmpeg", "ffmpeg");
     render::cancel_on_signals(cancel);
     try {
         figures::make_figures(chosen, options, cancel);
-        if (request.html) {
-            figures::write_page(options.folder);
-            if (!options.quiet) print_out(fmt::format("made     {}\n", (options.folder / kPage).string()));
-        }
+        if (makes_films(request)) make_films(options, request.threads);
+        if (request.html) make_page(options);
     } catch (const figures::Interrupted&) {
         if (!options.quiet) print_out("stopped  finished figures are kept: the same command makes the rest\n");
     }
@@ -116,8 +142,11 @@ void add_figures_command(CLI::App& program, int& exit_code) {
         ->type_name("n")
         ->capture_default_str();
     command->add_flag("--overwrite", request->overwrite, "Make figures anew that are there already");
-    command->add_flag("--html", request->html,
-                      "Write DIR/index.html too: every figure and film of the folder, with captions and sliders");
+    command->add_flag(
+        "--html", request->html,
+        "Make the two animations (webm and mp4) and DIR/index.html too: every figure and film of the folder, "
+        "with captions and sliders between pictures");
+    command->add_flag("--no-films", request->no_films, "With --html: leave the animations as they are");
     command->add_flag("--quiet", request->quiet, "No progress and no list of what was made");
     command->footer(
         "1  B-splines and their spectra          5  the whole surface\n"

@@ -14,6 +14,7 @@
 #include "src/scene/keys.h"
 #include "src/scene/validate.h"
 #include "tests/image/scratch_folder.h"
+#include "tools/figures/films.h"
 #include "tools/figures/page.h"
 #include "tools/figures/surface_areas.h"
 #include "tools/figures/wheel_rows.h"
@@ -246,7 +247,7 @@ TEST_CASE("the page shows texts as they are and refers to nothing outside its fo
     std::vector<nlohmann::ordered_json> records;
     for (const Figure& figure : all_figures()) records.push_back(record_of(figure.plan(Size::small), Size::small));
     records[0]["caption"] = "<script>alert(1)</script> {{figures}}";
-    const std::string page = page_of(records, {"animation-1.mp4"});
+    const std::string page = page_of(records, {film_record(films(Size::small).front())});
     CHECK(page.find("<script>alert") == std::string::npos);
     CHECK(page.find("&lt;script&gt;alert(1)&lt;/script&gt; {{figures}}") != std::string::npos);
     for (const char* remote : {"http://", "https://", "src=\"/", "href=\"/", "@import", "url("}) {

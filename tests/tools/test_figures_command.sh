@@ -20,7 +20,7 @@ check_refusals() {
 }
 
 check_plots() {
-    run figures --only 3,1,2,1 --size small -o 'a folder/sub' --html
+    run figures --only 3,1,2,1 --size small -o 'a folder/sub' --html --no-films
     expect_match 'figures are made in their order, and the page' "$status: $output" \
         '0: made *figure-1.png*made *figure-2.png*made *figure-3.png*made *index.html*'
     cd 'a folder/sub' || return
@@ -37,7 +37,7 @@ figure-2.json figure-2.png figure-2.svg figure-3-samples.csv figure-3.json figur
         sed 's/{"u":\([^,]*\),"v":\([^,]*\),.*/\1,\2/')
     drawn=$(sed -n 's/^stratified,\(.*\),.*/\1/p' figure-3-samples.csv)
     expect 'the samples drawn are those of the renderer' "$drawn" "$probed"
-    run figures --only 1,2,3 --size small -o ../again --quiet --html
+    run figures --only 1,2,3 --size small -o ../again --quiet --html --no-films
     expect '--quiet prints nothing' "$status: $output" '0: '
     local file
     for file in *; do expect_same_file "made again, $file is the same" "$file" "../again/$file"; done

@@ -13,7 +13,7 @@ chromium=$(command -v chromium || command -v chromium-browser || command -v goog
 }
 
 page=$scratch/page
-run figures --only 1,4 --size small -o "$page" --html --quiet
+run figures --only 1,4 --size small -o "$page" --html --no-films --quiet
 expect 'the page is made' "$status: $output" '0: '
 
 no_errors() { # where

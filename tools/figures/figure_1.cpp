@@ -124,11 +124,11 @@ Plan plan(Size size) {
     result.caption =
         "The uniform B-splines n_m of order m = 1 (box), 2 (tent), 3, 4 (cubic), 8 and 15, centred on the pixel, and "
         "the "
-        "magnitude of their Fourier transforms, |sinc(f)|^m, on a linear scale and in decibels. Dashed: the Gaussians "
+        "magnitude of their Fourier transforms, |sinc(f)|ᵐ, on a linear scale and in decibels. Dashed: the Gaussians "
         "of "
         "the same variance, m/12, that the splines tend to. Dots: what each leaves of a wave at Nyquist's frequency, "
         "half "
-        "a cycle a pixel: (2/π)^m = 0.637, 0.405, 0.258 and 0.164 for m = 1 to 4.";
+        "a cycle a pixel: (2/π)ᵐ = 0.637, 0.405, 0.258 and 0.164 for m = 1 to 4.";
     result.chosen = {"the orders shown, beyond what the text names",
                      "the range of frequencies and the floor of -140 dB"};
     result.shown = {

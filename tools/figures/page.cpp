@@ -9,6 +9,7 @@
 #include "src/image/output_file.h"
 #include "tools/figures/figure.h"
 #include "tools/figures/figure_maker.h"
+#include "tools/figures/films.h"
 
 namespace strata::tools::figures {
 
@@ -67,7 +68,8 @@ std::string main_picture(const ordered_json& record) {
     const auto vector = std::ranges::find_if(
         shown, [](const ordered_json& file) { return file.at("file").get<std::string>().ends_with(".svg"); });
     const std::string file = text_of((vector != shown.end() ? *vector : shown.front()).at("file"));
-    return fmt::format("<a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a>\n", file, text_of(shown.front().at("alt")));
+    return fmt::format("<a class=\"whole\" href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a>\n", file,
+                       text_of(shown.front().at("alt")));
 }
 
 std::string chosen(const ordered_json& record) {
@@ -106,58 +108,32 @@ std::string section(const ordered_json& record) {
         parameters(record), files(record));
 }
 
-std::string film_section(const Film& film, const std::vector<std::string>& there) {
+std::string film_section(const ordered_json& film) {
     std::string sources;
-    for (const char* type : {"webm", "mp4"}) {
-        const std::string file = fmt::format("{}.{}", film.name, type);
-        if (std::ranges::find(there, file) == there.end()) continue;
-        sources += fmt::format("<source src=\"{}\" type=\"video/{}\">", file, type);
+    for (const ordered_json& file : film.at("files")) {
+        const std::string name = file.get<std::string>();
+        sources += fmt::format("<source src=\"{}\" type=\"video/{}\">", escaped(name),
+                               escaped(name.substr(name.rfind('.') + 1)));
     }
-    if (sources.empty()) return "";
     return fmt::format(
-        "<section id=\"{}\">\n<h2>{}</h2>\n<figure>\n<video controls loop muted autoplay playsinline "
-        "aria-label=\"{}\">{}</video>\n<figcaption>{}</figcaption>\n</figure>\n<pre><code>{}</code></pre>\n</"
-        "section>\n",
-        film.name, escaped(film.title), escaped(film.caption), sources, escaped(film.caption), escaped(film.command));
+        "<section id=\"{0}\">\n<h2>{1}</h2>\n<figure>\n<video controls loop muted autoplay playsinline "
+        "aria-label=\"{2}\">{3}</video>\n<figcaption>{2}</figcaption>\n</figure>\n<pre><code>{4}</code></pre>\n"
+        "</section>\n",
+        text_of(film.at("animation")), text_of(film.at("title")), text_of(film.at("caption")), sources,
+        text_of(film.at("command")));
 }
 
-std::vector<ordered_json> records_in(const fs::path& folder) {
+// Of the records that are there.
+std::vector<ordered_json> records_of(const std::vector<fs::path>& paths) {
     std::vector<ordered_json> records;
-    for (const Figure& figure : all_figures()) {
-        std::ifstream file(record_path(folder, figure.number));
-        if (!file) continue;
-        records.push_back(ordered_json::parse(file));
+    for (const fs::path& path : paths) {
+        std::ifstream file(path);
+        if (file) records.push_back(ordered_json::parse(file));
     }
     return records;
 }
 
-std::vector<std::string> films_in(const fs::path& folder) {
-    std::vector<std::string> there;
-    for (const Film& film : films()) {
-        for (const char* extension : {".webm", ".mp4"}) {
-            if (fs::is_regular_file(folder / (film.name + extension))) there.push_back(film.name + extension);
-        }
-    }
-    return there;
-}
-
 }  // namespace
-
-const std::vector<Film>& films() {
-    static const std::vector<Film> both{
-        {"animation-1", "Animation 1. A rotating iso-surface",
-         "A complex rotating iso-surface: on the left without anti-aliasing, on the right anti-aliased in space and "
-         "time. It "
-         "loops. The surface is chosen.",
-         "strata animate isosurface -o animation-1.webm"},
-        {"animation-2", "Animation 2. The wagon wheel",
-         "The wheel of figure 8 in motion: on the left through the shutter, a box in time, on the right through the "
-         "cubic "
-         "B-spline. Spokes and speed are chosen.",
-         "strata animate wheel -o animation-2.webm"},
-    };
-    return both;
-}
 
 std::string escaped(std::string_view text) {
     std::string result;
@@ -185,18 +161,18 @@ std::string escaped(std::string_view text) {
     return result;
 }
 
-std::string page_of(const std::vector<ordered_json>& records, const std::vector<std::string>& film_files) {
+std::string page_of(const std::vector<ordered_json>& figures, const std::vector<ordered_json>& films) {
     std::string contents, sections;
     const auto add = [&](const std::string& anchor, const std::string& name, const std::string& text) {
-        if (text.empty()) return;
         contents += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", anchor, name);
         sections += text;
     };
-    for (const ordered_json& record : records) {
+    for (const ordered_json& record : figures) {
         add(anchor_of(record), fmt::format("Figure {}", record.at("figure").get<int>()), section(record));
     }
-    for (const Film& film : films()) {
-        add(film.name, escaped(film.title.substr(0, film.title.find('.'))), film_section(film, film_files));
+    for (const ordered_json& film : films) {
+        const std::string title = text_of(film.at("title"));
+        add(text_of(film.at("animation")), title.substr(0, title.find('.')), film_section(film));
     }
     const PageTexts& texts = page_texts();
     return filled(texts.html, {{"style", std::string(texts.css)},
@@ -207,9 +183,12 @@ std::string page_of(const std::vector<ordered_json>& records, const std::vector<
 }
 
 void write_page(const fs::path& folder) {
-    const std::vector<ordered_json> records = records_in(folder);
-    if (records.empty()) throw std::runtime_error(fmt::format("{}: no figures for a page", folder.string()));
-    const std::string page = page_of(records, films_in(folder));
+    std::vector<fs::path> figure_paths, film_paths;
+    for (const Figure& figure : all_figures()) figure_paths.push_back(record_path(folder, figure.number));
+    for (const Film& film : films(Size::paper)) film_paths.push_back(folder / (film.name + ".json"));
+    const std::vector<ordered_json> figure_records = records_of(figure_paths);
+    if (figure_records.empty()) throw std::runtime_error(fmt::format("{}: no figures for a page", folder.string()));
+    const std::string page = page_of(figure_records, records_of(film_paths));
     image::replace_file(folder / "index.html",
                         std::span(reinterpret_cast<const unsigned char*>(page.data()), page.size()));
 }

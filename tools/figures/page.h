@@ -1,4 +1,4 @@
-// index.html beside the figures: each with its caption, parameters and command, sliders between pictures, films.
+// index.html beside the figures and films: each with its caption, parameters and command, sliders between pictures.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,6 @@
 
 namespace strata::tools::figures {
 
-// A film of the paper, where the folder holds it.
-struct Film {
-    std::string name;  // "animation-1": of its files, .webm and .mp4
-    std::string title, caption, command;
-};
-const std::vector<Film>& films();
-
 // What the page is made of, as embedded when the program was built.
 struct PageTexts {
     std::string_view html, css, js;
@@ -25,9 +18,10 @@ const PageTexts& page_texts();
 // Text as it may stand in HTML and in a quoted attribute.
 std::string escaped(std::string_view text);
 
-// The page of these figures (figure.h, record_of) and films, in their order: style and script within, pictures referred
-// to by name, nothing from elsewhere. film_files: those of the folder, "animation-1.webm".
-std::string page_of(const std::vector<nlohmann::ordered_json>& records, const std::vector<std::string>& film_files);
+// The page of these figures (record_of) and films (film_record), in their order: style and script within, pictures and
+// films referred to by name, nothing from elsewhere.
+std::string page_of(const std::vector<nlohmann::ordered_json>& figures,
+                    const std::vector<nlohmann::ordered_json>& films);
 
 // Writes folder/index.html from the figures and films that the folder holds. Throws ImageError, and std::runtime_error
 // for a folder without figures.
