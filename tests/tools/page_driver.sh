@@ -1,8 +1,11 @@
 # shellcheck shell=bash
 # A page in headless Chromium, driven through its DevTools protocol over a pipe: messages are JSON ended by NUL. To be
-# sourced; needs $scratch.
+# sourced in a test that has a folder $scratch.
 
-# Starts the browser with a window of this size in CSS pixels. Leaves `call` ready.
+: "${scratch:?}"
+chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome)
+
+# Starts the browser, to be ended with this shell, with a window of this size in CSS pixels. Leaves `call` ready.
 open_browser() { # width height options...
     local width=$1 height=$2
     shift 2
@@ -11,7 +14,7 @@ open_browser() { # width height options...
         --disable-background-networking --no-first-run "--user-data-dir=$scratch/profile" "--window-size=$width,$height" \
         --remote-debugging-pipe "$@" about:blank 3<"$scratch/to" 4>"$scratch/from" >/dev/null 2>"$scratch/browser.log" &
     browser=$!
-    trap 'kill "$browser" 2>/dev/null; wait "$browser" 2>/dev/null; rm -rf -- "$scratch"' EXIT
+    trap 'kill "$browser" 2>/dev/null; wait "$browser" 2>/dev/null' EXIT
     exec {to}>"$scratch/to" {from}<"$scratch/from"
     rm "$scratch/to" "$scratch/from"
     last_id=0 session=''

@@ -21,6 +21,7 @@ constexpr int kOrder = 4;
 constexpr int kPixel = 7;  // (7,7); any would do
 constexpr const char* kData = "figure-3-samples.csv";
 constexpr double kReach_px = 2.5;
+constexpr double kLeastSize = 0.13;  // of the heaviest sample's dot: smaller ones would not be seen
 
 struct Pattern {
     EstimatorKind kind;
@@ -73,7 +74,7 @@ PlotPanel panel_of(const Pattern& pattern) {
     for (const render::ProbeSample& sample : samples) {
         dots.x.push_back(sample.u);
         dots.y.push_back(-sample.v);
-        dots.point_size.push_back(std::sqrt(sample.weight / heaviest));
+        dots.point_size.push_back(std::max(kLeastSize, std::sqrt(sample.weight / heaviest)));
     }
     dots.style = PlotStyle::discs;
     dots.point_scale = pattern.radius_px;
@@ -116,10 +117,11 @@ Plan plan(Size size) {
         "same weight (3). Lower row, beyond the paper: the same without strata; Owen-scrambled Sobol points; strata "
         "and "
         "Sobol points in every pixel, each shared by the 4×4 pixels around it, so that 1600 count in this one.";
-    result.chosen = {"the lower row",
-                     "the third pattern: the paper's text has 'stratified with weights', which is the "
-                     "jittered grid here",
-                     "dots drawn with their weight as area, those of the first pattern smaller than the others"};
+    result.chosen = {
+        "the lower row",
+        "the third pattern: the paper's text has 'stratified with weights', which is the "
+        "jittered grid here",
+        "dots drawn with their weight as area, but never too small to be seen, and smaller in the first pattern"};
     result.shown = {
         {"figure-3.png",
          "Eight squares of five by five pixels with sample points. A regular grid within the centre pixel; regular and "
