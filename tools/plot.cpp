@@ -1,7 +1,7 @@
 #include "tools/plot.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
+#include <cstdlib>
 
 #include <cmath>
 #include <fstream>

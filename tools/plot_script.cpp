@@ -150,6 +150,7 @@ std::string axis_commands(const PlotAxis& axis, const PlotPanel& panel, bool is_
     text += fmt::format("set {}tics autofreq\n", name);
     if (!tics.empty()) {
         std::vector<std::string> items;
+        items.reserve(tics.size());
         for (const PlotTic& tic : tics) items.push_back(gnuplot_string(tic.label) + " " + number(tic.at));
         text += fmt::format("set {}tics ({})\n", name, fmt::join(items, ", "));
     }
