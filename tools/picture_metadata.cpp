@@ -38,4 +38,10 @@ image::Metadata picture_metadata(const scene::Scene& scene, const render::Window
     return metadata;
 }
 
+void set_passes(image::Metadata& metadata, const scene::Sampling& sampling, int passes) {
+    if (passes <= 1) return;
+    metadata.set("strata:passes", passes);
+    metadata.set("strata:samples", std::int64_t{passes} * sampling.N * sampling.N);
+}
+
 }  // namespace strata::tools

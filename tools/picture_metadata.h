@@ -13,4 +13,8 @@ namespace strata::tools {
 image::Metadata picture_metadata(const scene::Scene& scene, const render::Window& window, const std::string& tracer,
                                  const std::string& exr_format);
 
+// Adds what a picture of several passes has to say: their number, and all samples of a pixel. One pass says nothing: it
+// is the plain render.
+void set_passes(image::Metadata& metadata, const scene::Sampling& sampling, int passes);
+
 }  // namespace strata::tools

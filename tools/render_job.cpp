@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <system_error>
 
 #include "noise/simd_target.h"
@@ -11,6 +12,9 @@
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
 #include "src/image/read.h"
+#include "src/scene/enum_names.h"
+#include "src/scene/key_text.h"
+#include "tools/duration.h"
 #include "tools/errors.h"
 #include "tools/picture_metadata.h"
 #include "tools/run_statistics.h"
@@ -55,9 +59,12 @@ void choose_simd_target(const RenderRequest& request, const LoadedScene& loaded)
 
 // At the most demanding moment, of writing: picture, a copy of it for the encoder, its codes, the encoded file.
 constexpr double kBytesAPixel = 12 + 12 + 12 + 12;
+// Of several passes, while they are rendered: the sum, the pass in work and the one before it.
+constexpr double kBytesAPixelOfPasses = 24 + 13 + 13;
 
-void check_memory(const render::Window& window) {
-    const double needed = kBytesAPixel * window.width() * window.height();
+void check_memory(const render::Window& window, const render::PassGoal& goal) {
+    const double bytes = goal.passes > 1 ? std::max(kBytesAPixel, kBytesAPixelOfPasses) : kBytesAPixel;
+    const double needed = bytes * window.width() * window.height();
     const double present =
         static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
     if (needed <= present) return;
@@ -65,6 +72,42 @@ void check_memory(const render::Window& window) {
         fmt::format("{}x{} pixels need {:.1f} GB of memory, this machine has {:.1f} GB; allowed: a smaller "
                     "--size, or the frame in parts by --crop",
                     window.width(), window.height(), needed / 1e9, present / 1e9));
+}
+
+double parse_target(const std::string& text) {
+    constexpr double kLeast = 1e-9, kMost = 1e6;
+    double value = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || rest != text.data() + text.size() || !(value >= kLeast && value <= kMost)) {
+        throw UsageError(
+            fmt::format("--target-rmse {}: allowed: a linear radiance, {} to {}", scene::excerpt(text), kLeast, kMost));
+    }
+    return value;
+}
+
+render::PassGoal choose_goal(const RenderRequest& request, const LoadedScene& loaded) {
+    const scene::EstimatorKind estimator = loaded.scene.sampling.estimator;
+    render::PassGoal goal;
+    if (!request.target_rmse.empty()) goal.target_rmse = parse_target(request.target_rmse);
+    if (!request.time_limit.empty()) goal.time_limit_s = parse_duration("--time-limit", request.time_limit);
+    const bool open_ended = goal.target_rmse > 0 || goal.time_limit_s > 0;
+    if (open_ended) goal.passes = render::kMostPasses;
+    if (!request.passes.empty()) goal.passes = parse_integer("--passes", request.passes, 1, render::kMostPasses);
+    if (goal.passes > 1 && !render::passes_differ(estimator)) {
+        throw UsageError(fmt::format(
+            "{}: passes of the estimator '{}' are all alike, their mean is no better than one; allowed with passes: "
+            "jittered, stratified, random, sobol, shared, shared-sobol",
+            !request.target_rmse.empty() ? "--target-rmse"
+            : open_ended                 ? "--time-limit"
+                                         : "--passes",
+            scene::name_of(estimator)));
+    }
+    // A picture rendered again with another estimator may have lost its use for passes.
+    if (request.passes.empty() && !open_ended && loaded.passes && render::passes_differ(estimator)) {
+        goal.passes =
+            parse_integer((loaded.source + ": its strata:passes").c_str(), *loaded.passes, 1, render::kMostPasses);
+    }
+    return goal;
 }
 
 bool same_file(const fs::path& a, const fs::path& b) {
@@ -133,7 +176,8 @@ Job prepare(const RenderRequest& request) {
     parse_tracer(job.tracer);
     const std::string format = choose(request.format, job.loaded.exr_format, "half");
     job.write = {.exposure = job.loaded.scene.film.exposure, .exr_format = parse_format(format)};
-    check_memory(job.window);
+    job.goal = choose_goal(request, job.loaded);
+    check_memory(job.window, job.goal);
     job.outputs = output_paths(request, job);
     job.statistics = request.statistics;
     check_statistics(job);

@@ -8,6 +8,7 @@
 #include "src/image/encode.h"
 #include "src/image/metadata.h"
 #include "src/render/film.h"
+#include "src/render/progressive.h"
 #include "tools/scene_argument.h"
 
 namespace strata::tools {
@@ -17,6 +18,7 @@ struct RenderRequest {
     SceneArgument scene;
     std::vector<std::string> outputs;
     std::string crop, tracer, simd, format, statistics, threads = "0", tile = "32";
+    std::string passes, target_rmse, time_limit;
     bool quiet = false;
 };
 
@@ -29,6 +31,7 @@ struct Job {
     image::WriteOptions write;
     image::Metadata metadata;
     std::string tracer;
+    render::PassGoal goal;
     int threads = 0, tile = 0;
     bool quiet = false;
 };

@@ -30,4 +30,15 @@ RenderedPicture render_picture(const scene::Scene& scene, const render::Window& 
     return rendered;
 }
 
+ProgressivePicture render_picture(const scene::Scene& scene, const render::Window& window, render::Tracer tracer,
+                                  const render::PassGoal& goal, const render::RenderOptions& options) {
+    const auto image_function = render::make_image(scene, tracer);
+    ProgressivePicture rendered;
+    rendered.result =
+        render::render_progressively(*image_function, render::estimator_settings(scene), window, goal, options);
+    rendered.finished_pixels = rendered.result.render.film.finished_count();
+    rendered.picture = to_picture(std::exchange(rendered.result.render.film, {}), scene.film);
+    return rendered;
+}
+
 }  // namespace strata::tools

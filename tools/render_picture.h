@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "src/image/picture.h"
+#include "src/render/progressive.h"
 #include "src/render/render.h"
 #include "src/render/surface_image.h"
 #include "src/scene/scene.h"
@@ -19,5 +20,15 @@ struct RenderedPicture {
 // Renders the pixels `window` of a valid scene's frame.
 RenderedPicture render_picture(const scene::Scene& scene, const render::Window& window, render::Tracer tracer,
                                const render::RenderOptions& options);
+
+struct ProgressivePicture {
+    image::Picture picture;  // black where it is not finished
+    std::size_t finished_pixels = 0;
+    render::ProgressiveResult result;  // its film has become the picture
+};
+
+// The same in passes until the goal is reached.
+ProgressivePicture render_picture(const scene::Scene& scene, const render::Window& window, render::Tracer tracer,
+                                  const render::PassGoal& goal, const render::RenderOptions& options);
 
 }  // namespace strata::tools

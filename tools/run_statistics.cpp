@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "noise/simd_target.h"
@@ -28,7 +29,76 @@ std::string scaled(double count) {
     return fmt::format("{:.0f}", count);
 }
 
+const char* end_name(render::PassesEnd end) {
+    switch (end) {
+        case render::PassesEnd::passes:
+            return "passes";
+        case render::PassesEnd::target:
+            return "target-rmse";
+        case render::PassesEnd::time:
+            return "time-limit";
+        case render::PassesEnd::cancelled:
+            return "interrupted";
+        case render::PassesEnd::not_finite:
+            return "not finite";
+    }
+    return "";
+}
+
+std::string verdict(const PassStatistics& passes) {
+    if (passes.end == render::PassesEnd::not_finite) return "some radiance is not finite: no error can be told";
+    if (passes.goal.target_rmse <= 0) return passes.end == render::PassesEnd::time ? "time limit reached" : "";
+    const bool reached = passes.end == render::PassesEnd::target;
+    return fmt::format("target {:.3g} {}", passes.goal.target_rmse,
+                       reached                                      ? "reached"
+                       : passes.end == render::PassesEnd::time      ? "not reached in time"
+                       : passes.end == render::PassesEnd::cancelled ? "not yet reached"
+                                                                    : "not reached in these passes");
+}
+
+std::string passes_summary(const PassStatistics& passes) {
+    std::string text = fmt::format("passes   {}", passes.passes);
+    if (passes.noise && std::isfinite(passes.noise->high)) {
+        text += fmt::format(", noise {:.3g} RMSE (95 % sure: below {:.3g})", passes.noise->rmse, passes.noise->high);
+    } else if (passes.noise) {
+        text += fmt::format(", noise about {:.3g} RMSE", passes.noise->rmse);
+    }
+    const std::string said = verdict(passes);
+    return text + (said.empty() ? "" : ", ") + said + "\n";
+}
+
+// null where nothing is known: JSON has no infinity.
+nlohmann::ordered_json number_or_null(double value, bool known = true) {
+    if (!known || !std::isfinite(value)) return nullptr;
+    return value;
+}
+
+nlohmann::ordered_json passes_json(const PassStatistics& passes) {
+    const render::NoiseEstimate noise = passes.noise.value_or(render::NoiseEstimate{});
+    const bool known = passes.noise.has_value();
+    nlohmann::ordered_json predicted = nullptr;
+    if (passes.predicted_passes) predicted = *passes.predicted_passes;
+    return {{"passes", passes.passes},
+            {"stopped_by", end_name(passes.end)},
+            {"estimated_rmse", number_or_null(noise.rmse, known)},
+            {"estimated_rmse_low", number_or_null(noise.low, known)},
+            {"estimated_rmse_high", number_or_null(noise.high, known)},
+            {"target_rmse", number_or_null(passes.goal.target_rmse, passes.goal.target_rmse > 0)},
+            {"time_limit_s", number_or_null(passes.goal.time_limit_s, passes.goal.time_limit_s > 0)},
+            {"predicted_passes", predicted},
+            {"predicted_seconds", number_or_null(passes.predicted_seconds, passes.predicted_seconds > 0)}};
+}
+
 }  // namespace
+
+RunStatistics collect(const render::ProgressiveResult& result, const render::PassGoal& goal, const std::string& scene) {
+    RunStatistics statistics = collect(result.render, scene);
+    if (goal.passes > 1) {
+        statistics.passes = PassStatistics{goal,         result.passes,           result.end,
+                                           result.noise, result.predicted_passes, result.predicted_seconds};
+    }
+    return statistics;
+}
 
 RunStatistics collect(const render::RenderResult& result, const std::string& scene) {
     return {.counters = result.counters,
@@ -37,7 +107,8 @@ RunStatistics collect(const render::RenderResult& result, const std::string& sce
             .threads = result.threads,
             .simd_target = noise::simd_target(),
             .peak_memory_bytes = peak_memory(),
-            .scene = scene};
+            .scene = scene,
+            .passes = {}};
 }
 
 std::string summary(const RunStatistics& statistics) {
@@ -52,26 +123,28 @@ std::string summary(const RunStatistics& statistics) {
         text += fmt::format("noise    {:.1f} evaluations a ray, shadow rays and normals included in the count\n",
                             static_cast<double>(c.noise_evaluations) / std::max(1.0, rays + shadow_rays));
     }
+    if (statistics.passes) text += passes_summary(*statistics.passes);
     text += fmt::format("memory   {:.0f} MB at most\n", static_cast<double>(statistics.peak_memory_bytes) / 1e6);
     return text;
 }
 
 void write_statistics(const std::filesystem::path& path, const RunStatistics& statistics) {
     const render::Counters& c = statistics.counters;
-    const nlohmann::ordered_json json = {{"scene", statistics.scene},
-                                         {"version", STRATA_VERSION},
-                                         {"simd_target", statistics.simd_target},
-                                         {"threads", statistics.threads},
-                                         {"rays", c.rays},
-                                         {"shadow_rays", c.shadow_rays},
-                                         {"hits", c.hits},
-                                         {"unresolved_rays", c.unresolved_rays},
-                                         {"noise_evaluations", c.noise_evaluations},
-                                         {"executed_lanes", c.executed_lanes},
-                                         {"steps", c.steps},
-                                         {"seconds", statistics.seconds},
-                                         {"cpu_seconds", statistics.cpu_seconds},
-                                         {"peak_memory_bytes", statistics.peak_memory_bytes}};
+    nlohmann::ordered_json json = {{"scene", statistics.scene},
+                                   {"version", STRATA_VERSION},
+                                   {"simd_target", statistics.simd_target},
+                                   {"threads", statistics.threads},
+                                   {"rays", c.rays},
+                                   {"shadow_rays", c.shadow_rays},
+                                   {"hits", c.hits},
+                                   {"unresolved_rays", c.unresolved_rays},
+                                   {"noise_evaluations", c.noise_evaluations},
+                                   {"executed_lanes", c.executed_lanes},
+                                   {"steps", c.steps},
+                                   {"seconds", statistics.seconds},
+                                   {"cpu_seconds", statistics.cpu_seconds},
+                                   {"peak_memory_bytes", statistics.peak_memory_bytes}};
+    if (statistics.passes) json.update(passes_json(*statistics.passes));
     // A scene's file name need not be UTF-8.
     const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
     image::replace_file(path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));

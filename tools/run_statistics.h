@@ -3,11 +3,23 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "src/render/progressive.h"
 #include "src/render/render.h"
 
 namespace strata::tools {
+
+// Of a render in passes.
+struct PassStatistics {
+    render::PassGoal goal;
+    int passes = 0;
+    render::PassesEnd end = render::PassesEnd::passes;
+    std::optional<render::NoiseEstimate> noise;
+    std::optional<int> predicted_passes;
+    double predicted_seconds = 0;
+};
 
 struct RunStatistics {
     render::Counters counters;
@@ -17,9 +29,11 @@ struct RunStatistics {
     std::string simd_target;
     std::uint64_t peak_memory_bytes = 0;
     std::string scene;
+    std::optional<PassStatistics> passes;  // empty: a plain render
 };
 
 RunStatistics collect(const render::RenderResult& result, const std::string& scene);
+RunStatistics collect(const render::ProgressiveResult& result, const render::PassGoal& goal, const std::string& scene);
 
 // A few lines for people.
 std::string summary(const RunStatistics& statistics);

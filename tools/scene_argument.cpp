@@ -62,6 +62,7 @@ LoadedScene from_picture(const std::filesystem::path& path) {
     loaded.tracer = image::read_metadata(path, "strata:tracer");
     loaded.exr_format = image::read_metadata(path, "strata:format");
     loaded.simd_target = image::read_metadata(path, "strata:simd_target");
+    loaded.passes = image::read_metadata(path, "strata:passes");
     return loaded;
 }
 

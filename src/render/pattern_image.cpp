@@ -4,6 +4,9 @@
 #include <stdexcept>
 
 #include "shaders_cpu/checker.h"
+#include "shaders_cpu/constant.h"
+#include "shaders_cpu/edge.h"
+#include "shaders_cpu/ramp.h"
 #include "shaders_cpu/wheel.h"
 #include "shaders_cpu/zoneplate.h"
 
@@ -40,6 +43,12 @@ std::unique_ptr<ImageFunction> make_pattern_image(const scene::Scene& scene) {
             return std::make_unique<PatternImage<scene::Checker, shaders::checker>>(scene.checker, scene.film);
         case scene::ImageKind::wheel:
             return std::make_unique<PatternImage<scene::Wheel, shaders::wheel>>(scene.wheel, scene.film);
+        case scene::ImageKind::edge:
+            return std::make_unique<PatternImage<scene::Edge, shaders::edge>>(scene.edge, scene.film);
+        case scene::ImageKind::ramp:
+            return std::make_unique<PatternImage<scene::Ramp, shaders::ramp>>(scene.ramp, scene.film);
+        case scene::ImageKind::constant:
+            return std::make_unique<PatternImage<scene::Constant, shaders::constant>>(scene.constant, scene.film);
         case scene::ImageKind::surface:
             break;
     }

@@ -31,6 +31,13 @@ constexpr std::uint64_t counter_hash(std::uint64_t stream_key, std::uint64_t ind
     return noise::mix64(stream_key + kCounterStride * (index + 1));
 }
 
+// The seed of pass number `pass` over a picture of this seed: passes are independent of each other, and pass 0 is the
+// picture itself.
+constexpr std::uint64_t pass_seed(std::uint64_t seed, std::uint64_t pass) {
+    constexpr std::uint64_t kPassStride = 0xA0761D6478BD642Fu;  // odd; unlike the strides of rows, cells and counters
+    return pass == 0 ? seed : noise::mix64(noise::mix64(seed ^ kPassStride) + kPassStride * pass);
+}
+
 // Two independent 32-bit numbers of one hash.
 constexpr std::uint32_t high_word(std::uint64_t hash) { return static_cast<std::uint32_t>(hash >> 32); }
 constexpr std::uint32_t low_word(std::uint64_t hash) { return static_cast<std::uint32_t>(hash); }

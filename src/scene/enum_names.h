@@ -16,7 +16,8 @@ template <class E>
 inline constexpr std::array<std::string_view, 0> kEnumNames{};
 
 template <>
-inline constexpr std::array<std::string_view, 4> kEnumNames<ImageKind>{"surface", "zoneplate", "checker", "wheel"};
+inline constexpr std::array<std::string_view, 7> kEnumNames<ImageKind>{"surface", "zoneplate", "checker", "wheel",
+                                                                       "edge",    "ramp",      "constant"};
 
 template <>
 inline constexpr std::array<std::string_view, 4> kEnumNames<SurfaceKind>{"terrain", "hyperterrain", "planet",
@@ -32,7 +33,7 @@ template <>
 inline constexpr std::array<std::string_view, 9> kEnumNames<EstimatorKind>{
     "none", "super", "uniform", "jittered", "stratified", "random", "sobol", "shared", "shared-sobol"};
 
-static_assert(static_cast<std::size_t>(ImageKind::wheel) + 1 == kEnumNames<ImageKind>.size());
+static_assert(static_cast<std::size_t>(ImageKind::constant) + 1 == kEnumNames<ImageKind>.size());
 static_assert(static_cast<std::size_t>(SurfaceKind::isosurface) + 1 == kEnumNames<SurfaceKind>.size());
 static_assert(static_cast<std::size_t>(BoundKind::box) + 1 == kEnumNames<BoundKind>.size());
 static_assert(static_cast<std::size_t>(Interpolation::linear) + 1 == kEnumNames<Interpolation>.size());

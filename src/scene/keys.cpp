@@ -210,6 +210,27 @@ Section wheel_section(Wheel& wheel, bool matters) {
          number("spoke_fill", wheel.spoke_fill, kFraction, "of the angle", "how much of the wheel is spoke")});
 }
 
+Section edge_section(Edge& edge, bool matters) {
+    return section(
+        "edge", "a straight edge between black and white", matters,
+        {number("angle_deg", edge.angle_deg, kAngle, "degrees counter-clockwise from right",
+                "direction in which the white side lies"),
+         number("offset", edge.offset, kAnywhere, "pixels", "of the edge from the frame's centre in that direction")});
+}
+
+Section ramp_section(Ramp& ramp, bool matters) {
+    return section(
+        "ramp", "grey that rises evenly", matters,
+        {number("angle_deg", ramp.angle_deg, kAngle, "degrees counter-clockwise from right", "direction of the rise"),
+         number("rise", ramp.rise, {-1e6, 1e6}, "over the frame's width",
+                "how much brighter; the frame's centre is 0.5")});
+}
+
+Section constant_section(Constant& constant, bool matters) {
+    return section("constant", "one grey everywhere", matters,
+                   {number("value", constant.value, kLight, "linear radiance", "the grey")});
+}
+
 }  // namespace
 
 Section describe_camera_key(CameraKey& entry, Camera& rest, std::size_t index) {
@@ -235,7 +256,10 @@ std::vector<Section> describe(Scene& scene) {
             material_section(scene.material, surface),
             zoneplate_section(scene.zoneplate, scene.image == ImageKind::zoneplate),
             checker_section(scene.checker, scene.image == ImageKind::checker),
-            wheel_section(scene.wheel, scene.image == ImageKind::wheel)};
+            wheel_section(scene.wheel, scene.image == ImageKind::wheel),
+            edge_section(scene.edge, scene.image == ImageKind::edge),
+            ramp_section(scene.ramp, scene.image == ImageKind::ramp),
+            constant_section(scene.constant, scene.image == ImageKind::constant)};
 }
 
 }  // namespace strata::scene

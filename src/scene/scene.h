@@ -9,7 +9,7 @@
 
 namespace strata::scene {
 
-enum class ImageKind { surface, zoneplate, checker, wheel };
+enum class ImageKind { surface, zoneplate, checker, wheel, edge, ramp, constant };
 enum class SurfaceKind { terrain, hyperterrain, planet, isosurface };
 enum class BoundKind { ball, box };
 enum class Interpolation { smooth, linear };
@@ -113,6 +113,20 @@ struct Wheel {
     double spoke_fill = 0.4;   // fraction of the angle that is spoke
 };
 
+struct Edge {
+    double angle_deg = 30.0;  // of the white side's direction, counter-clockwise from right
+    double offset = 0.0;      // px from the frame's centre
+};
+
+struct Ramp {
+    double angle_deg = 30.0;  // of the rise, counter-clockwise from right
+    double rise = 1.0;        // over the frame's width
+};
+
+struct Constant {
+    double value = 0.5;  // linear radiance
+};
+
 struct Scene {
     std::string title;
     ImageKind image = ImageKind::surface;
@@ -127,6 +141,9 @@ struct Scene {
     Zoneplate zoneplate;
     Checker checker;
     Wheel wheel;
+    Edge edge;
+    Ramp ramp;
+    Constant constant;
 };
 
 }  // namespace strata::scene

@@ -6,6 +6,9 @@
 #include <vector>
 
 #include "shaders_cpu/checker.h"
+#include "shaders_cpu/constant.h"
+#include "shaders_cpu/edge.h"
+#include "shaders_cpu/ramp.h"
 #include "shaders_cpu/wheel.h"
 #include "shaders_cpu/zoneplate.h"
 #include "src/render/pattern_image.h"
@@ -45,12 +48,33 @@ scene::Scene make_scene(scene::ImageKind kind) {
     return scene;
 }
 
+float pattern(const scene::Scene& scene, double u, double v, double t) {
+    switch (scene.image) {
+        case scene::ImageKind::zoneplate:
+            return shaders::zoneplate(scene.zoneplate, 320, 200, u, v, t);
+        case scene::ImageKind::checker:
+            return shaders::checker(scene.checker, 320, 200, u, v, t);
+        case scene::ImageKind::wheel:
+            return shaders::wheel(scene.wheel, 320, 200, u, v, t);
+        case scene::ImageKind::edge:
+            return shaders::edge(scene.edge, 320, 200, u, v, t);
+        case scene::ImageKind::ramp:
+            return shaders::ramp(scene.ramp, 320, 200, u, v, t);
+        case scene::ImageKind::constant:
+            return shaders::constant(scene.constant, 320, 200, u, v, t);
+        case scene::ImageKind::surface:
+            break;
+    }
+    return -1.0f;
+}
+
 }  // namespace
 
 TEST_CASE("a pattern image is the pattern at every sample, in grey, however the samples are batched") {
     constexpr std::size_t kCount = 1000;
     const Samples samples = random_samples(kCount);
-    for (const auto kind : {scene::ImageKind::zoneplate, scene::ImageKind::checker, scene::ImageKind::wheel}) {
+    for (const auto kind : {scene::ImageKind::zoneplate, scene::ImageKind::checker, scene::ImageKind::wheel,
+                            scene::ImageKind::edge, scene::ImageKind::ramp, scene::ImageKind::constant}) {
         const scene::Scene scene = make_scene(kind);
         const auto image = render::make_pattern_image(scene);
         render::Counters counters;
@@ -68,11 +92,7 @@ TEST_CASE("a pattern image is the pattern at every sample, in grey, however the 
             const double u = samples.u[i];
             const double v = samples.v[i];
             const double t = samples.t[i];
-            const float expected =
-                kind == scene::ImageKind::zoneplate ? shaders::zoneplate(scene.zoneplate, 320, 200, u, v, t)
-                : kind == scene::ImageKind::checker ? shaders::checker(scene.checker, 320, 200, u, v, t)
-                                                    : shaders::wheel(scene.wheel, 320, 200, u, v, t);
-            wrong += whole[i] != glm::vec3(expected);
+            wrong += whole[i] != glm::vec3(pattern(scene, u, v, t));
         }
         CHECK(wrong == 0);
         image->evaluate(samples.batch(0, 0), {}, counters);

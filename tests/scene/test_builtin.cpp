@@ -41,7 +41,8 @@ TEST_CASE("every file of tools/scenes is built in, byte for byte, under its name
     std::set<std::string> built_in;
     for (const BuiltinScene& builtin : builtin_scenes()) built_in.insert(builtin.name);
     CHECK(built_in == names);
-    for (const char* name : {"terrain", "hyperterrain", "planet", "isosurface", "zoneplate", "checker", "wheel"}) {
+    for (const char* name : {"terrain", "hyperterrain", "planet", "isosurface", "zoneplate", "checker", "wheel", "edge",
+                             "ramp", "constant"}) {
         CHECK(names.count(name) == 1);
     }
 }
@@ -67,6 +68,9 @@ TEST_CASE("the scenes of a kind of surface or picture are named after it") {
     CHECK(scene_named("zoneplate").image == ImageKind::zoneplate);
     CHECK(scene_named("checker").image == ImageKind::checker);
     CHECK(scene_named("wheel").image == ImageKind::wheel);
+    CHECK(scene_named("edge").image == ImageKind::edge);
+    CHECK(scene_named("ramp").image == ImageKind::ramp);
+    CHECK(scene_named("constant").image == ImageKind::constant);
 }
 
 TEST_CASE("the default scene is a still of at least 1280 by 720 by the paper's estimator") {

@@ -24,7 +24,9 @@ std::string error_of(const std::string& assignment, const std::string& option = 
     return "";
 }
 
-const std::string kSections = "film, sampling, shutter, camera, surface, sun, sky, material, zoneplate, checker, wheel";
+const std::string kSections =
+    "film, sampling, shutter, camera, surface, sun, sky, material, zoneplate, checker, wheel, "
+    "edge, ramp, constant";
 
 }  // namespace
 

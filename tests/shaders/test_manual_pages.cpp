@@ -23,7 +23,8 @@ std::string snippet(const std::string& header) {
 }  // namespace
 
 TEST_CASE("the scene snippet of every shader's header is a valid scene") {
-    for (const char* header : {"sky.h", "terrain_material.h", "zoneplate.h", "checker.h", "wheel.h"}) {
+    for (const char* header :
+         {"sky.h", "terrain_material.h", "zoneplate.h", "checker.h", "wheel.h", "edge.h", "ramp.h", "constant.h"}) {
         CAPTURE(header);
         const std::string text = snippet(header);
         REQUIRE(!text.empty());

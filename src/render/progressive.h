@@ -1,0 +1,48 @@
+// Pictures that grow: independent passes of the estimator over the whole window, averaged, until there are as many as
+// wanted, the error is as small as wanted, or the time is up.
+//
+// Pass p is the plain render with the seed sample::pass_seed(seed, p), and the picture of K passes is their mean,
+// summed in double in the order of the passes: a pure function of (image, settings, K), whatever made it stop at K. One
+// pass is the plain render, to the last bit.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "src/render/noise_estimate.h"
+#include "src/render/render.h"
+
+namespace strata::render {
+
+inline constexpr int kMostPasses = 1'000'000;
+
+// When to stop. Several goals: at the first that is reached.
+struct PassGoal {
+    int passes = 1;          // at most so many, in [1,kMostPasses]
+    double target_rmse = 0;  // until NoiseEstimate::high is at most this, which takes four passes or more; 0: no target
+    double time_limit_s = 0;  // no pass that is predicted to end later than this after the start; the first always is
+                              // done; 0: no limit
+};
+
+enum class PassesEnd { passes, target, time, cancelled, not_finite };
+
+struct ProgressiveResult {
+    RenderResult
+        render;      // of all passes; its film is complete if one pass is, and `cancelled` says if goals were missed
+    int passes = 0;  // whole ones, in the film; 0: the first was cancelled and the film is what it had finished
+    PassesEnd end = PassesEnd::passes;
+    std::optional<NoiseEstimate> noise;   // from two passes on
+    std::optional<int> predicted_passes;  // for the target, as seen from the first pair of passes
+    double predicted_seconds = 0;         // of the whole, as seen then; 0: never predicted
+};
+
+// Whether another pass of this estimator differs from the first. The grids of `none`, `super` and `uniform` do not:
+// averaging would not lower their error.
+bool passes_differ(scene::EstimatorKind kind);
+
+// Throws std::invalid_argument for what render() refuses, and for more than one pass where passes do not differ.
+// on_progress tells of the whole: of the predicted passes, or of the time limit where that comes first.
+ProgressiveResult render_progressively(const ImageFunction& image, const EstimatorSettings& settings,
+                                       const Window& window, const PassGoal& goal, const RenderOptions& options = {});
+
+}  // namespace strata::render
