@@ -7,6 +7,7 @@ namespace strata::tools {
 
 void add_render_command(CLI::App& program, int& exit_code);
 void add_scenes_command(CLI::App& program, int& exit_code);
+void add_converge_command(CLI::App& program, int& exit_code);
 void add_probe_command(CLI::App& program, int& exit_code);
 void add_strip_command(CLI::App& program, int& exit_code);
 void add_sweep_command(CLI::App& program, int& exit_code);

@@ -98,10 +98,7 @@ std::string shown_name(const KeyOption& option) {
 
 }  // namespace
 
-void SceneArgument::add_to(CLI::App& command, const char* name, std::span<const std::string_view> own) {
-    command
-        .add_option(name, scene_, "A scene file, a built-in scene (`strata scenes`), or a picture that strata wrote")
-        ->capture_default_str();
+void SceneArgument::add_changes(CLI::App& command) {
     command
         .add_option("--set", sets_,
                     "Replace any scene key: --set camera.fov_deg=35 (a TOML value, words without quotes; may be "
@@ -112,6 +109,25 @@ void SceneArgument::add_to(CLI::App& command, const char* name, std::span<const 
     command
         .add_option("--size", size_, "Frame in pixels, 1 to 65536 a side; default the scene's film.width, film.height")
         ->type_name("WxH");
+}
+
+bool SceneArgument::size_given() const {
+    return size_ || std::ranges::any_of(sets_, [](const std::string& set) {
+               const std::size_t start = std::min(set.find_first_not_of(" \t"), set.size());
+               return set.compare(start, 10, "film.width") == 0 || set.compare(start, 11, "film.height") == 0;
+           });
+}
+
+void SceneArgument::add_scene_to(CLI::App& command, const std::string& description) {
+    command.add_option("SCENE", scene_, description)->required();
+    add_changes(command);
+}
+
+void SceneArgument::add_to(CLI::App& command, const char* name, std::span<const std::string_view> own) {
+    command
+        .add_option(name, scene_, "A scene file, a built-in scene (`strata scenes`), or a picture that strata wrote")
+        ->capture_default_str();
+    add_changes(command);
     key_values_.resize(kKeyOptions.size());
     for (std::size_t i = 0; i < kKeyOptions.size(); ++i) {
         const KeyOption& option = kKeyOptions[i];
@@ -163,7 +179,8 @@ LoadedScene SceneArgument::load() const {
         scene::apply_override(scene, fmt::format("film.width={}", (*size)[0]), typed);
         scene::apply_override(scene, fmt::format("film.height={}", (*size)[1]), typed);
     }
-    for (std::size_t i = 0; i < kKeyOptions.size(); ++i) {
+    // None where a command took the scene alone.
+    for (std::size_t i = 0; i < key_values_.size(); ++i) {
         if (!key_values_[i]) continue;
         scene::apply_override(scene, fmt::format("{}={}", kKeyOptions[i].key, *key_values_[i]),
                               fmt::format("{} {}", shown_name(kKeyOptions[i]), scene::excerpt(*key_values_[i])));

@@ -29,12 +29,19 @@ class SceneArgument {
     // Keys in `own` get no option: the command has its own for them.
     void add_to(CLI::App& command, const char* name = "SCENE", std::span<const std::string_view> own = {});
 
+    // Adds SCENE, which must be given, --set and --size alone: for commands that choose N, m, estimator and seeds.
+    void add_scene_to(CLI::App& command, const std::string& description);
+
+    // Whether --size or --set says how large the frame is.
+    bool size_given() const;
+
     // A path, a built-in scene's name, or a picture that strata wrote; overrides applied, validated. Throws SceneError
     // or UsageError.
     LoadedScene load() const;
 
   private:
     LoadedScene find() const;
+    void add_changes(CLI::App& command);
 
     std::string scene_ = "terrain";
     std::optional<std::string> size_;

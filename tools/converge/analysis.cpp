@@ -1,0 +1,126 @@
+#include "tools/converge/analysis.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strata::tools {
+
+namespace {
+
+using scene::EstimatorKind;
+
+constexpr std::size_t kFewestOfAFit = 3;
+
+struct Columns {
+    std::vector<double> samples, seconds, rmse, relative_ci;
+};
+
+Columns columns_of(const ConvergeSeries& series, int least_N) {
+    Columns columns;
+    for (const ConvergePoint* point : series.points) {
+        if (point->limit != Limit::none || point->N < least_N) continue;
+        const RootMean rmse = point->rmse();
+        columns.samples.push_back(1.0 * point->N * point->N);
+        columns.seconds.push_back(spread_of(point->cpu_seconds).median);
+        columns.rmse.push_back(rmse.value);
+        columns.relative_ci.push_back(rmse.half_width / rmse.value);
+    }
+    return columns;
+}
+
+void fit(ConvergeSeries& series) {
+    // One sample has no strata: its error tells nothing of how the error falls, if there are others.
+    Columns columns = columns_of(series, 2);
+    if (columns.rmse.size() < kFewestOfAFit) columns = columns_of(series, 1);
+    series.against_samples = fit_power_law(columns.samples, columns.rmse, columns.relative_ci);
+    series.against_seconds = fit_power_law(columns.seconds, columns.rmse, columns.relative_ci);
+    const Columns all = columns_of(series, 1);
+    for (std::size_t i = 0; i < kTargets.size(); ++i) {
+        series.times[i] = time_to_error(kTargets[i], all.seconds, all.rmse, series.against_seconds);
+    }
+}
+
+const ConvergeSeries* paper_series(const std::vector<ConvergeSeries>& all, const ConvergeSeries& like) {
+    const auto found = std::ranges::find_if(all, [&](const ConvergeSeries& other) {
+        return other.estimator == EstimatorKind::stratified && other.m == like.m && other.tracer == like.tracer;
+    });
+    return found == all.end() ? nullptr : &*found;
+}
+
+std::optional<double> error_ratio(const ConvergeSeries& series, const ConvergeSeries& paper) {
+    double logarithms = 0;
+    int count = 0;
+    for (const ConvergePoint* mine : series.points) {
+        for (const ConvergePoint* other : paper.points) {
+            const bool comparable =
+                mine->N == other->N && mine->N >= 2 && mine->limit == Limit::none && other->limit == Limit::none;
+            if (!comparable) continue;
+            logarithms += std::log(mine->rmse().value / other->rmse().value);
+            ++count;
+        }
+    }
+    if (count == 0) return std::nullopt;
+    return std::exp(logarithms / count);
+}
+
+std::vector<ConvergeSeries> group(const Experiment& experiment) {
+    std::vector<ConvergeSeries> all;
+    for (const ConvergePoint& point : experiment.points) {
+        auto found = std::ranges::find_if(all, [&](const ConvergeSeries& s) {
+            return s.estimator == point.estimator && s.m == point.m && s.tracer == point.tracer;
+        });
+        if (found == all.end()) {
+            all.push_back({});
+            found = all.end() - 1;
+            found->estimator = point.estimator;
+            found->m = point.m;
+            found->tracer = point.tracer;
+        }
+        found->points.push_back(&point);
+    }
+    return all;
+}
+
+// Not where float rounding is all the error, since rounding is a bias of its own.
+bool testable(const Experiment& experiment, const ConvergePoint& point) {
+    return unbiased(point.estimator) && point.seeds() >= 2 && point.limit != Limit::rounding &&
+           experiment.reference_of(point).exact;
+}
+
+void test_bias(const Experiment& experiment, Analysis& analysis) {
+    for (const ConvergePoint& point : experiment.points) {
+        if (!testable(experiment, point)) continue;
+        const ConvergeReference& reference = experiment.reference_of(point);
+        // Radiance is handed over in floats: half a unit in the last place may be a bias of each sample.
+        const double blind = reference.error + reference.root_mean_square * 0x1p-24;
+        analysis.tests.push_back({&point, point.errors.z_of_mean(blind), point.errors.z_of_squares(blind), false});
+    }
+    const std::size_t tests = 2 * analysis.tests.size();
+    analysis.mean_threshold = sidak_threshold(analysis.family_level, tests, true);
+    analysis.squares_threshold = sidak_threshold(analysis.family_level, tests, false);
+    for (BiasTest& test : analysis.tests) {
+        test.failed = !(std::fabs(test.z_of_mean) <= analysis.mean_threshold) ||
+                      !(test.z_of_squares <= analysis.squares_threshold);
+    }
+}
+
+}  // namespace
+
+Analysis analyse(const Experiment& experiment) {
+    Analysis analysis;
+    analysis.series = group(experiment);
+    for (ConvergeSeries& series : analysis.series) fit(series);
+    for (ConvergeSeries& series : analysis.series) {
+        const ConvergeSeries* paper = paper_series(analysis.series, series);
+        if (paper == nullptr) continue;
+        series.error_ratio = error_ratio(series, *paper);
+        for (std::size_t i = 0; i < kTargets.size(); ++i) {
+            if (paper->times[i] && series.times[i])
+                series.speed_ups[i] = paper->times[i]->seconds / series.times[i]->seconds;
+        }
+    }
+    test_bias(experiment, analysis);
+    return analysis;
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,46 @@
+// What an experiment says: slopes, times to reach an error, tests of bias.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "tools/converge/experiment.h"
+#include "tools/converge/power_law.h"
+
+namespace strata::tools {
+
+inline constexpr std::array<double, 3> kTargets{1.0 / 64, 1.0 / 256, 1.0 / 1024};
+
+// The points of one estimator, order and tracer, N ascending.
+struct ConvergeSeries {
+    scene::EstimatorKind estimator{};
+    int m = 0;
+    render::Tracer tracer{};
+    std::vector<const ConvergePoint*> points;
+    std::optional<PowerLaw> against_samples;  // RMSE against N * N; without limited points
+    std::optional<PowerLaw> against_seconds;  // of CPU: what the clock says depends on who else uses the machine
+    std::array<std::optional<TimeToError>, kTargets.size()> times;
+    std::array<std::optional<double>, kTargets.size()> speed_ups;  // the time of `stratified` over this one's
+    std::optional<double> error_ratio;  // RMSE over that of `stratified` at the same N: geometric mean, N >= 2
+};
+
+// The tests of one point of an unbiased estimator against an exact picture.
+struct BiasTest {
+    const ConvergePoint* point = nullptr;
+    double z_of_mean = 0, z_of_squares = 0;
+    bool failed = false;
+};
+
+struct Analysis {
+    std::vector<ConvergeSeries> series;
+    std::vector<BiasTest> tests;  // empty where there is no exact picture
+    double family_level = 0.01;   // that an unbiased estimator fails anywhere
+    double mean_threshold = 0, squares_threshold = 0;
+};
+
+// Points into the experiment, which must outlive it.
+Analysis analyse(const Experiment& experiment);
+
+}  // namespace strata::tools

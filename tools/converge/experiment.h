@@ -1,0 +1,85 @@
+// Error and time of estimators: the renders, and what is kept of them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/image/picture.h"
+#include "src/render/cancel.h"
+#include "src/render/progress_printer.h"
+#include "src/render/surface_image.h"
+#include "src/scene/scene.h"
+#include "tools/converge/statistics.h"
+
+namespace strata::tools {
+
+// What is to be measured.
+struct ConvergeSettings {
+    std::vector<scene::EstimatorKind> estimators;
+    std::vector<int> orders;
+    std::vector<int> Ns;  // ascending
+    std::vector<render::Tracer> tracers;
+    int seeds = 0;        // 0: as many as suit the image
+    int repeats = 3;      // timed renders of a point, at least
+    int threads = 0;      // of every render; 0: one for what is timed, all of the machine for the rest
+    double budget_s = 0;  // 0: none
+};
+
+enum class Limit { none, reference, rounding };
+
+// Renders of one estimator, order, tracer and N.
+struct ConvergePoint {
+    scene::EstimatorKind estimator{};
+    int m = 0;
+    render::Tracer tracer{};
+    int N = 0;
+    bool fixed = false;  // every seed gives the same picture
+
+    render::Counters counters;  // of one render
+    std::vector<double> seconds, cpu_seconds;
+    std::vector<double> mean_squares, relative, largest, percentile99;  // one a seed
+    PixelErrors errors;
+
+    int seeds() const { return errors.seeds(); }
+    RootMean rmse() const;
+    Limit limit = Limit::none;
+};
+
+// The picture that one order's renders should arrive at.
+struct ConvergeReference {
+    int m = 0;
+    image::Picture picture;       // as floats, for the comparison
+    std::vector<double> grey;     // mean of the channels, one a pixel
+    double error = 0;             // RMSE of an engine reference; bound of an exact one
+    double root_mean_square = 0;  // of its values
+    bool exact = false;
+    std::string how;
+};
+
+struct Experiment {
+    ConvergeSettings settings;  // as carried out: N and seeds cut to the budget, threads pinned
+    scene::Scene scene;
+    std::vector<ConvergeReference> references;
+    std::vector<ConvergePoint> points;
+    std::uint64_t first_seed = 0;
+    double seconds = 0;
+    std::vector<int> dropped_Ns;  // for the budget
+    bool interrupted = false;     // some points have fewer seeds, or none
+
+    const ConvergeReference& reference_of(const ConvergePoint& point) const;
+};
+
+// Whether the estimator's pixels have the filtered picture as expectation and are independent of each other, so that
+// the tests of bias apply.
+bool unbiased(scene::EstimatorKind kind);
+
+// Whether every seed gives the same picture.
+bool deterministic(scene::EstimatorKind kind, const scene::Scene& scene);
+
+// Measures a valid scene's frame. Throws UsageError when the budget does not suffice for anything. Points without any
+// render have been removed.
+Experiment run_experiment(const scene::Scene& scene, const ConvergeSettings& settings,
+                          render::ProgressPrinter& progress, const render::CancelToken& cancel);
+
+}  // namespace strata::tools

@@ -1,0 +1,16 @@
+// What pictures are compared with.
+#pragma once
+
+#include "tools/converge/experiment.h"
+
+namespace strata::tools {
+
+// The exact picture of order m where there is one; else the engine's at N samples a side with shared Sobol points, the
+// mean of two halves with seeds of their own, whose difference gives its error. Nothing when cancelled.
+std::optional<ConvergeReference> make_reference(const scene::Scene& scene, int m, int N, int threads,
+                                                const render::CancelToken& cancel);
+
+// Whether make_reference() will not render.
+bool has_exact_reference(const scene::Scene& scene, int m);
+
+}  // namespace strata::tools

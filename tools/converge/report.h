@@ -1,0 +1,48 @@
+// An experiment and its analysis as files: for spreadsheets, for programs, for eyes and for readers.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/converge/analysis.h"
+#include "tools/plot.h"
+
+namespace strata::tools {
+
+struct ConvergeReport {
+    std::string function;  // the scene's name
+    const Experiment& experiment;
+    const Analysis& analysis;
+};
+
+// A row a point, and a first line with the columns' names.
+std::string converge_csv(const ConvergeReport& report);
+
+// The same rows, with slopes, times to errors, tests of bias, references and the machine.
+std::string converge_json(const ConvergeReport& report);
+
+// A page of Markdown in plain words.
+std::string converge_summary(const ConvergeReport& report);
+
+// Error against samples or time, a panel for each order and tracer: points, fitted lines, and dotted lines of the
+// slopes that theory knows.
+enum class PlotAgainst { samples, seconds };
+Plot converge_plot(const ConvergeReport& report, PlotAgainst against);
+
+// The files that write_report() will put into a folder.
+std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder);
+
+// Throws ImageError, PlotError and ProcessError.
+void write_report(const ConvergeReport& report, const std::filesystem::path& folder);
+
+// "fast" or "reference".
+const char* tracer_name(render::Tracer tracer);
+
+// "", "reference" or "rounding".
+const char* limit_name(Limit limit);
+
+// The processor's name as the system tells it.
+std::string processor_name();
+
+}  // namespace strata::tools

@@ -1,0 +1,195 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "noise/simd_target.h"
+#include "src/scene/enum_names.h"
+#include "src/scene/printer.h"
+#include "tools/converge/report.h"
+
+namespace strata::tools {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double mean(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+}
+
+// JSON has neither infinity nor NaN.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json bias_of_mean(const ConvergePoint& point) { return number(point.errors.mean()); }
+
+// The root of the mean square of the bias; null where it does not stand out of the noise by two standard errors. Of
+// shared samples, as many neighbours as the filter is wide go together.
+Json bias_rms(const ConvergePoint& point) {
+    if (point.fixed) return number(point.rmse().value);
+    if (point.seeds() < 2) return nullptr;
+    const PixelErrors::SquaredBias bias = point.errors.squared_bias();
+    const bool shared =
+        point.estimator == scene::EstimatorKind::shared || point.estimator == scene::EstimatorKind::shared_sobol;
+    if (!(bias.mean > 2 * (shared ? point.m : 1) * bias.standard_error)) return nullptr;
+    return number(std::sqrt(bias.mean));
+}
+
+Json row_of(const ConvergeReport& report, const ConvergePoint& point) {
+    const RootMean rmse = point.rmse();
+    const Spread seconds = spread_of(point.seconds);
+    const Spread cpu = spread_of(point.cpu_seconds);
+    return {{"function", report.function},
+            {"estimator", scene::name_of(point.estimator)},
+            {"m", point.m},
+            {"N", point.N},
+            {"tracer", tracer_name(point.tracer)},
+            {"seed_count", point.seeds()},
+            {"rays", point.counters.rays},
+            {"shadow_rays", point.counters.shadow_rays},
+            {"noise_evaluations", point.counters.noise_evaluations},
+            {"repeats", point.seconds.size()},
+            {"seconds", seconds.median},
+            {"seconds_low_quartile", seconds.low_quartile},
+            {"seconds_high_quartile", seconds.high_quartile},
+            {"cpu_seconds", cpu.median},
+            {"cpu_seconds_low_quartile", cpu.low_quartile},
+            {"cpu_seconds_high_quartile", cpu.high_quartile},
+            {"rmse", number(rmse.value)},
+            {"rmse_ci", number(rmse.half_width)},
+            {"relative_rmse", number(mean(point.relative))},
+            {"max_error", number(mean(point.largest))},
+            {"percentile99", number(mean(point.percentile99))},
+            {"neighbour_correlation", number(point.errors.neighbour_correlation())},
+            {"bias_mean", bias_of_mean(point)},
+            {"bias_rms", bias_rms(point)},
+            {"limited_by", limit_name(point.limit)}};
+}
+
+std::string csv_text(const Json& value) {
+    if (value.is_null()) return "";
+    if (!value.is_string()) return value.dump();
+    const auto& text = value.get_ref<const std::string&>();
+    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+    std::string quoted(1, '"');
+    for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+    quoted.push_back('"');
+    return quoted;
+}
+
+Json slopes_json(const Analysis& analysis) {
+    Json slopes = Json::array();
+    for (const ConvergeSeries& series : analysis.series) {
+        const auto add = [&](const char* against, const std::optional<PowerLaw>& law) {
+            if (!law) return;
+            slopes.push_back({{"estimator", scene::name_of(series.estimator)},
+                              {"m", series.m},
+                              {"tracer", tracer_name(series.tracer)},
+                              {"against", against},
+                              {"slope", law->slope},
+                              {"slope_ci", law->slope_ci},
+                              {"factor", std::pow(10.0, law->log10_factor)},
+                              {"points", law->points}});
+        };
+        add("samples", series.against_samples);
+        add("seconds", series.against_seconds);
+    }
+    return slopes;
+}
+
+const char* reach_name(Reach reach) {
+    if (reach == Reach::interpolated) return "interpolated";
+    return reach == Reach::extrapolated ? "extrapolated" : "at the smallest N";
+}
+
+Json times_json(const Analysis& analysis) {
+    Json times = Json::array();
+    for (const ConvergeSeries& series : analysis.series) {
+        for (std::size_t i = 0; i < kTargets.size(); ++i) {
+            if (!series.times[i]) continue;
+            Json entry{{"estimator", scene::name_of(series.estimator)}, {"m", series.m},
+                       {"tracer", tracer_name(series.tracer)},          {"error", kTargets[i]},
+                       {"seconds", series.times[i]->seconds},           {"how", reach_name(series.times[i]->reach)}};
+            entry["stratified_over_this"] = series.speed_ups[i] ? Json(*series.speed_ups[i]) : Json(nullptr);
+            times.push_back(std::move(entry));
+        }
+    }
+    return times;
+}
+
+Json bias_json(const Analysis& analysis) {
+    Json tests = Json::array();
+    for (const BiasTest& test : analysis.tests) {
+        tests.push_back({{"estimator", scene::name_of(test.point->estimator)},
+                         {"m", test.point->m},
+                         {"N", test.point->N},
+                         {"tracer", tracer_name(test.point->tracer)},
+                         {"z_of_mean", number(test.z_of_mean)},
+                         {"z_of_squares", number(test.z_of_squares)},
+                         {"pass", !test.failed}});
+    }
+    return {{"family_level", analysis.family_level},
+            {"threshold_of_mean", analysis.mean_threshold},
+            {"threshold_of_squares", analysis.squares_threshold},
+            {"tests", tests}};
+}
+
+Json references_json(const Experiment& experiment) {
+    Json references = Json::array();
+    for (const ConvergeReference& reference : experiment.references) {
+        references.push_back({{"m", reference.m},
+                              {"exact", reference.exact},
+                              {"error", reference.error},
+                              {"root_mean_square", reference.root_mean_square},
+                              {"how", reference.how}});
+    }
+    return references;
+}
+
+}  // namespace
+
+std::string converge_csv(const ConvergeReport& report) {
+    std::string text;
+    for (const ConvergePoint& point : report.experiment.points) {
+        const Json row = row_of(report, point);
+        std::vector<std::string> names;
+        std::vector<std::string> values;
+        for (const auto& [name, value] : row.items()) {
+            names.push_back(name);
+            values.push_back(csv_text(value));
+        }
+        if (text.empty()) text = fmt::format("{}\n", fmt::join(names, ","));
+        text += fmt::format("{}\n", fmt::join(values, ","));
+    }
+    return text;
+}
+
+std::string converge_json(const ConvergeReport& report) {
+    const Experiment& experiment = report.experiment;
+    Json rows = Json::array();
+    for (const ConvergePoint& point : experiment.points) rows.push_back(row_of(report, point));
+    const Json json{{"function", report.function},
+                    {"version", STRATA_VERSION},
+                    {"width", experiment.scene.film.width},
+                    {"height", experiment.scene.film.height},
+                    {"machine",
+                     {{"processor", processor_name()},
+                      {"threads", experiment.settings.threads},
+                      {"simd_target", noise::simd_target()}}},
+                    {"first_seed", experiment.first_seed},
+                    {"seeds", experiment.settings.seeds},
+                    {"dropped_N", experiment.dropped_Ns},
+                    {"interrupted", experiment.interrupted},
+                    {"references", references_json(experiment)},
+                    {"rows", rows},
+                    {"slopes", slopes_json(report.analysis)},
+                    {"time_to_error", times_json(report.analysis)},
+                    {"bias", bias_json(report.analysis)},
+                    {"scene", scene::print_scene(experiment.scene)}};
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace strata::tools

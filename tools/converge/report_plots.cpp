@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/scene/enum_names.h"
+#include "tools/converge/report.h"
+
+namespace strata::tools {
+
+namespace {
+
+struct Extent {
+    double low = std::numeric_limits<double>::infinity();
+    double high = 0;
+
+    void hold(double value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+};
+
+// One colour and shape an estimator, in every panel.
+int colour_of(scene::EstimatorKind kind) { return static_cast<int>(kind) % static_cast<int>(plot_palette().size()); }
+
+std::string with_slope(const ConvergeSeries& series, const std::optional<PowerLaw>& law) {
+    const std::string name(scene::name_of(series.estimator));
+    return law ? fmt::format("{}  {:.2f} ± {:.2f}", name, law->slope, law->slope_ci) : name;
+}
+
+class Panel {
+  public:
+    Panel(const ConvergeReport& report, PlotAgainst against, int m, render::Tracer tracer) : against_(against) {
+        for (const ConvergeSeries& series : report.analysis.series) {
+            if (series.m == m && series.tracer == tracer) add(series);
+        }
+        if (panel_.series.empty()) return;
+        add_theory();
+        const bool traced = report.experiment.settings.tracers.size() > 1;
+        panel_.title = fmt::format("m = {}{}", m, traced ? fmt::format(", {} tracer", tracer_name(tracer)) : "");
+        panel_.x.label = against == PlotAgainst::samples ? "samples a pixel, N²" : "CPU time of a render / s";
+        panel_.y.label = "RMSE of linear radiance";
+        panel_.x.log = panel_.y.log = true;
+        panel_.y.min = y_.low / 1.5;
+        panel_.y.max = y_.high * 1.5;
+        panel_.legend = PlotLegend::below;
+    }
+
+    const PlotPanel& panel() const { return panel_; }
+
+  private:
+    double x_of(const ConvergePoint& point) const {
+        return against_ == PlotAgainst::samples ? 1.0 * point.N * point.N : spread_of(point.cpu_seconds).median;
+    }
+
+    void add(const ConvergeSeries& series) {
+        const std::optional<PowerLaw>& law =
+            against_ == PlotAgainst::samples ? series.against_samples : series.against_seconds;
+        PlotSeries points;
+        points.name = with_slope(series, law);
+        points.style = law ? PlotStyle::points : PlotStyle::line_points;
+        points.colour = colour_of(series.estimator);
+        points.shape = static_cast<PlotShape>(static_cast<int>(series.estimator) % 6);
+        PlotSeries line;
+        line.colour = points.colour;
+        line.line_width = 1.5;
+        for (const ConvergePoint* point : series.points) {
+            const RootMean rmse = point->rmse();
+            if (!(rmse.value > 0) || point->limit == Limit::rounding) continue;
+            points.x.push_back(x_of(*point));
+            points.y.push_back(rmse.value);
+            points.y_error.push_back(std::isfinite(rmse.half_width) ? rmse.half_width : 0);
+            x_.hold(points.x.back());
+            y_.hold(rmse.value);
+            if (law && point->limit == Limit::none) {
+                line.x.push_back(points.x.back());
+                line.y.push_back(law->at(points.x.back()));
+            }
+        }
+        if (points.x.empty()) return;
+        if (line.x.size() > 1) panel_.series.push_back(line);
+        panel_.series.push_back(std::move(points));
+    }
+
+    // From the panel's top left corner downwards: only the directions mean anything.
+    void add_theory() {
+        if (!(x_.high > x_.low)) return;
+        struct Theory {
+            double slope;
+            const char* name;
+        };
+        for (const Theory& theory : {Theory{-0.5, "-1/2: independent samples"}, Theory{-0.75, "-3/4: strata, an edge"},
+                                     Theory{-1.0, "-1: strata, smooth"}}) {
+            const double bottom = x_.low * std::pow(y_.low / y_.high, 1 / theory.slope);
+            const double end = std::min(x_.high, bottom);
+            PlotSeries line;
+            line.name = theory.name;
+            line.style = theory.slope == -0.5   ? PlotStyle::dotted
+                         : theory.slope == -1.0 ? PlotStyle::line
+                                                : PlotStyle::dashed;
+            line.colour = 7;
+            line.line_width = 1.0;
+            line.x = {x_.low, end};
+            line.y = {y_.high, y_.high * std::pow(end / x_.low, theory.slope)};
+            panel_.series.push_back(std::move(line));
+        }
+    }
+
+    PlotAgainst against_;
+    PlotPanel panel_;
+    Extent x_, y_;
+};
+
+}  // namespace
+
+Plot converge_plot(const ConvergeReport& report, PlotAgainst against) {
+    const Experiment& experiment = report.experiment;
+    Plot plot;
+    plot.title = fmt::format("{}: error against {}, with fitted slopes", report.function,
+                             against == PlotAgainst::samples ? "samples" : "time");
+    for (const render::Tracer tracer : experiment.settings.tracers) {
+        std::vector<int> orders;
+        for (const ConvergeSeries& series : report.analysis.series) {
+            if (std::ranges::find(orders, series.m) == orders.end()) orders.push_back(series.m);
+        }
+        std::ranges::sort(orders);
+        for (const int m : orders) {
+            const Panel panel(report, against, m, tracer);
+            if (!panel.panel().series.empty()) plot.panels.push_back(panel.panel());
+        }
+    }
+    plot.columns = static_cast<int>(std::clamp<std::size_t>(plot.panels.size(), 1, 2));
+    const int rows = (static_cast<int>(plot.panels.size()) + plot.columns - 1) / plot.columns;
+    plot.width = 750 * plot.columns;
+    plot.height = 760 * std::max(rows, 1);
+    return plot;
+}
+
+}  // namespace strata::tools
