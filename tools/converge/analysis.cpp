@@ -106,6 +106,19 @@ void test_bias(const Experiment& experiment, Analysis& analysis) {
 
 }  // namespace
 
+std::optional<double> visible_bias(const Experiment& experiment, const ConvergePoint& point) {
+    if (point.fixed) return point.rmse().value;
+    if (point.seeds() < 2) return std::nullopt;
+    const bool shared = point.estimator == EstimatorKind::shared || point.estimator == EstimatorKind::shared_sobol;
+    const PixelErrors::SquaredBias bias = point.errors.squared_bias();
+    // Shared samples go to m pixels along each axis: so much wider the mean over pixels spreads.
+    const double noise = 2 * (shared ? point.m : 1) * bias.standard_error;
+    const double reference = experiment.reference_of(point).error;
+    const double square = bias.mean - reference * reference;
+    if (!(square > std::max(noise, reference * reference))) return std::nullopt;
+    return std::sqrt(square);
+}
+
 Analysis analyse(const Experiment& experiment) {
     Analysis analysis;
     analysis.series = group(experiment);

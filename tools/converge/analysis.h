@@ -40,6 +40,10 @@ struct Analysis {
     double mean_threshold = 0, squares_threshold = 0;
 };
 
+// The root of the mean square of a point's bias over pixels, where it stands out of noise and the reference's own
+// error.
+std::optional<double> visible_bias(const Experiment& experiment, const ConvergePoint& point);
+
 // Points into the experiment, which must outlive it.
 Analysis analyse(const Experiment& experiment);
 

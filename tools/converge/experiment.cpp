@@ -88,6 +88,7 @@ class Run {
     std::vector<Combination> combinations_;
     int reference_threads_ = 0;
     std::uint64_t rays_ = 0;
+    double before_s_ = 0;  // spent on warming up and references
 };
 
 void Run::combine() {
@@ -118,8 +119,8 @@ render::RenderResult Run::render(const Combination& combination, int N, std::uin
 // Every combination once, with a seed that is not measured: code and tables are in the caches, and what a sample costs
 // is known.
 void Run::warm_up() {
-    int N = all_.settings.Ns.front();
-    for (const int other : all_.settings.Ns) N = other <= 4 ? std::max(N, other) : N;
+    constexpr int kPilotN = 4;
+    const int N = std::min(kPilotN, all_.settings.Ns.back());
     for (Combination& combination : combinations_) {
         if (cancel_.requested()) return;
         const auto unmeasured = static_cast<std::uint64_t>(all_.settings.seeds);
@@ -237,7 +238,7 @@ void Run::measure(ConvergePoint& point, int round) {
 }
 
 void Run::show_progress(double done_s, double total_s) {
-    if (progress_) progress_({done_s / total_s, rays_, seconds()});
+    if (progress_) progress_({(before_s_ + done_s) / (before_s_ + total_s), rays_, seconds()});
 }
 
 // Round by round, so that whatever disturbs the machine disturbs all points alike.
@@ -255,6 +256,7 @@ void Run::measure() {
             all_.points.push_back(std::move(point));
         }
     }
+    before_s_ = seconds();
     const int rounds = std::max(all_.settings.seeds, all_.settings.repeats);
     double round_s = 0;
     for (const int N : all_.settings.Ns) round_s += cost_s(N);

@@ -24,22 +24,9 @@ double mean(const std::vector<double>& values) {
 // JSON has neither infinity nor NaN.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json bias_of_mean(const ConvergePoint& point) { return number(point.errors.mean()); }
-
-// The root of the mean square of the bias; null where it does not stand out of the noise by two standard errors. Of
-// shared samples, as many neighbours as the filter is wide go together.
-Json bias_rms(const ConvergePoint& point) {
-    if (point.fixed) return number(point.rmse().value);
-    if (point.seeds() < 2) return nullptr;
-    const PixelErrors::SquaredBias bias = point.errors.squared_bias();
-    const bool shared =
-        point.estimator == scene::EstimatorKind::shared || point.estimator == scene::EstimatorKind::shared_sobol;
-    if (!(bias.mean > 2 * (shared ? point.m : 1) * bias.standard_error)) return nullptr;
-    return number(std::sqrt(bias.mean));
-}
-
 Json row_of(const ConvergeReport& report, const ConvergePoint& point) {
     const RootMean rmse = point.rmse();
+    const std::optional<double> bias = visible_bias(report.experiment, point);
     const Spread seconds = spread_of(point.seconds);
     const Spread cpu = spread_of(point.cpu_seconds);
     return {{"function", report.function},
@@ -64,8 +51,8 @@ Json row_of(const ConvergeReport& report, const ConvergePoint& point) {
             {"max_error", number(mean(point.largest))},
             {"percentile99", number(mean(point.percentile99))},
             {"neighbour_correlation", number(point.errors.neighbour_correlation())},
-            {"bias_mean", bias_of_mean(point)},
-            {"bias_rms", bias_rms(point)},
+            {"bias_mean", number(point.errors.mean())},
+            {"bias_rms", bias ? number(*bias) : Json(nullptr)},
             {"limited_by", limit_name(point.limit)}};
 }
 

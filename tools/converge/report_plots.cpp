@@ -21,8 +21,37 @@ struct Extent {
     }
 };
 
-// One colour and shape an estimator, in every panel.
-int colour_of(scene::EstimatorKind kind) { return static_cast<int>(kind) % static_cast<int>(plot_palette().size()); }
+constexpr int kBlack = 5;  // of plot_palette()
+
+// One colour and shape an estimator, in every panel; the paper's is black.
+struct Look {
+    int colour;
+    PlotShape shape;
+};
+
+Look look_of(scene::EstimatorKind kind) {
+    switch (kind) {
+        case scene::EstimatorKind::none:
+            return {7, PlotShape::dot};
+        case scene::EstimatorKind::super:
+            return {7, PlotShape::triangle};
+        case scene::EstimatorKind::uniform:
+            return {2, PlotShape::square};
+        case scene::EstimatorKind::jittered:
+            return {3, PlotShape::triangle};
+        case scene::EstimatorKind::stratified:
+            return {kBlack, PlotShape::diamond};
+        case scene::EstimatorKind::random:
+            return {4, PlotShape::cross};
+        case scene::EstimatorKind::sobol:
+            return {6, PlotShape::circle};
+        case scene::EstimatorKind::shared:
+            return {1, PlotShape::dot};
+        case scene::EstimatorKind::shared_sobol:
+            return {0, PlotShape::square};
+    }
+    return {kBlack, PlotShape::dot};
+}
 
 std::string with_slope(const ConvergeSeries& series, const std::optional<PowerLaw>& law) {
     const std::string name(scene::name_of(series.estimator));
@@ -44,7 +73,9 @@ class Panel {
         panel_.x.log = panel_.y.log = true;
         panel_.y.min = y_.low / 1.5;
         panel_.y.max = y_.high * 1.5;
-        panel_.legend = PlotLegend::below;
+        panel_.x.min = x_.low / 1.3;
+        panel_.x.max = x_.high * 1.3;
+        panel_.legend = PlotLegend::right;
     }
 
     const PlotPanel& panel() const { return panel_; }
@@ -60,11 +91,16 @@ class Panel {
         PlotSeries points;
         points.name = with_slope(series, law);
         points.style = law ? PlotStyle::points : PlotStyle::line_points;
-        points.colour = colour_of(series.estimator);
-        points.shape = static_cast<PlotShape>(static_cast<int>(series.estimator) % 6);
+        points.colour = look_of(series.estimator).colour;
+        points.shape = look_of(series.estimator).shape;
         PlotSeries line;
         line.colour = points.colour;
         line.line_width = 1.5;
+        // The fit may have left out the first points.
+        const auto usable = std::ranges::count_if(
+            series.points, [](const ConvergePoint* point) { return point->limit == Limit::none; });
+        const auto skipped = law ? usable - law->points : 0;
+        std::ptrdiff_t fitted = 0;
         for (const ConvergePoint* point : series.points) {
             const RootMean rmse = point->rmse();
             if (!(rmse.value > 0) || point->limit == Limit::rounding) continue;
@@ -73,7 +109,7 @@ class Panel {
             points.y_error.push_back(std::isfinite(rmse.half_width) ? rmse.half_width : 0);
             x_.hold(points.x.back());
             y_.hold(rmse.value);
-            if (law && point->limit == Limit::none) {
+            if (law && point->limit == Limit::none && fitted++ >= skipped) {
                 line.x.push_back(points.x.back());
                 line.y.push_back(law->at(points.x.back()));
             }
@@ -99,8 +135,8 @@ class Panel {
             line.style = theory.slope == -0.5   ? PlotStyle::dotted
                          : theory.slope == -1.0 ? PlotStyle::line
                                                 : PlotStyle::dashed;
-            line.colour = 7;
-            line.line_width = 1.0;
+            line.colour = kBlack;
+            line.line_width = 0.7;
             line.x = {x_.low, end};
             line.y = {y_.high, y_.high * std::pow(end / x_.low, theory.slope)};
             panel_.series.push_back(std::move(line));
@@ -130,10 +166,9 @@ Plot converge_plot(const ConvergeReport& report, PlotAgainst against) {
             if (!panel.panel().series.empty()) plot.panels.push_back(panel.panel());
         }
     }
-    plot.columns = static_cast<int>(std::clamp<std::size_t>(plot.panels.size(), 1, 2));
-    const int rows = (static_cast<int>(plot.panels.size()) + plot.columns - 1) / plot.columns;
-    plot.width = 750 * plot.columns;
-    plot.height = 760 * std::max(rows, 1);
+    plot.columns = 1;
+    plot.width = 1000;
+    plot.height = 560 * std::max(static_cast<int>(plot.panels.size()), 1);
     return plot;
 }
 

@@ -72,24 +72,40 @@ std::string setting_text(const ConvergeReport& report) {
     return text;
 }
 
-std::string advice(const ConvergeReport& report, int m, std::size_t target) {
+// Errors of these are the same in every render: patterns, where others have grain.
+bool is_grid(EstimatorKind kind) {
+    return kind == EstimatorKind::none || kind == EstimatorKind::super || kind == EstimatorKind::uniform;
+}
+
+const ConvergeSeries* fastest(const ConvergeReport& report, int m, std::size_t target, bool grids) {
     const ConvergeSeries* best = nullptr;
-    const ConvergeSeries* paper = nullptr;
     for (const ConvergeSeries& series : report.analysis.series) {
-        if (series.m != m || !series.times[target]) continue;
+        if (series.m != m || !series.times[target] || is_grid(series.estimator) != grids) continue;
         if (series.tracer != report.experiment.settings.tracers.front()) continue;
-        if (series.estimator == EstimatorKind::stratified) paper = &series;
         if (best == nullptr || series.times[target]->seconds < best->times[target]->seconds) best = &series;
     }
-    const std::string goal = fmt::format("m = {}, error {}", m, target_text(kTargets[target]));
-    if (best == nullptr) return fmt::format("- {}: nothing measured here comes near.\n", goal);
-    const TimeToError& time = *best->times[target];
-    std::string text = fmt::format("- {}: `{}`, {}{}", goal, scene::name_of(best->estimator), reach_mark(time.reach),
-                                   time_text(time.seconds));
-    if (best == paper) return text + ": the paper's method itself.\n";
-    if (paper != nullptr) {
-        text += fmt::format(", {:.2g} times as fast as the paper's method ({}{})", *best->speed_ups[target],
-                            reach_mark(paper->times[target]->reach), time_text(paper->times[target]->seconds));
+    return best;
+}
+
+std::string advice(const ConvergeReport& report, int m, std::size_t target) {
+    const ConvergeSeries* best = fastest(report, m, target, false);
+    const ConvergeSeries* grid = fastest(report, m, target, true);
+    std::string text = fmt::format("- m = {}, error {}: ", m, target_text(kTargets[target]));
+    if (best == nullptr && grid == nullptr) return text + "nothing measured here comes near.\n";
+    if (best != nullptr) {
+        const TimeToError& time = *best->times[target];
+        text +=
+            fmt::format("`{}`, {}{}", scene::name_of(best->estimator), reach_mark(time.reach), time_text(time.seconds));
+        if (best->estimator == EstimatorKind::stratified) {
+            text += ", the paper's method itself";
+        } else if (best->speed_ups[target]) {
+            text += fmt::format(", {:.2g} times as fast as the paper's method", *best->speed_ups[target]);
+        }
+    }
+    if (grid != nullptr && (best == nullptr || grid->times[target]->seconds < best->times[target]->seconds)) {
+        const TimeToError& time = *grid->times[target];
+        text += fmt::format("{}`{}`, {}{}, if patterns are no worse than grain", best != nullptr ? "; " : "",
+                            scene::name_of(grid->estimator), reach_mark(time.reach), time_text(time.seconds));
     }
     return text + ".\n";
 }
@@ -127,8 +143,8 @@ std::string table(const ConvergeReport& report) {
                             law ? fmt::format("{:.2f} ± {:.2f}", law->slope, law->slope_ci) : "-",
                             series->error_ratio ? fmt::format("{:.2f}", *series->error_ratio) : "-");
         for (std::size_t target = 0; target < kTargets.size(); ++target)
-            text += " " + time_cell(*series, target) + " |";
-        text += " " + correlation_text(*series) + " |\n";
+            text += fmt::format(" {} |", time_cell(*series, target));
+        text += fmt::format(" {} |\n", correlation_text(*series));
     }
     return text +
            "\nIn brackets: the paper's method's time (`stratified`, same order) over this one's. ~: extrapolated along "
@@ -169,10 +185,8 @@ std::string weighted_bias_text(const ConvergeReport& report) {
         std::string list;
         for (const ConvergePoint* point : series.points) {
             if (point->seeds() < 2 || point->limit != Limit::none) continue;
-            const PixelErrors::SquaredBias bias = point->errors.squared_bias();
-            const bool seen = bias.mean > 2 * series.m * bias.standard_error;
-            const double rms = std::sqrt(std::max(bias.mean, 0.0));
-            if (seen) list += fmt::format("{}{:.2g} at N = {}", list.empty() ? "" : ", ", rms, point->N);
+            const auto rms = visible_bias(report.experiment, *point);
+            if (rms) list += fmt::format("{}{:.2g} at N = {}", list.empty() ? "" : ", ", *rms, point->N);
         }
         text += fmt::format("- `{}`, m = {}: {}\n", series_name(report.experiment, series), series.m,
                             list.empty() ? "below the noise at every N" : list);
