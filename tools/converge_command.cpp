@@ -164,8 +164,7 @@ void add_converge_command(CLI::App& program, int& exit_code) {
                                 "picture), any other built-in "
                                 "scene, a scene file or a picture of strata (compared with a reference render). "
                                 "Without --size the frame is made "
-                                "smaller, 64 pixels at its longer side",
-                                true);
+                                "smaller, 64 pixels at its longer side");
     const auto list = [&](const char* name, std::string& value, const char* meaning) {
         command->add_option(name, value, meaning)->type_name("LIST")->capture_default_str();
     };

@@ -102,11 +102,12 @@ void Run::combine() {
 }
 
 render::RenderResult Run::render(const Combination& combination, int N, std::uint64_t seed) {
+    all_.scene.sampling.seed = all_.first_seed + seed;
     render::EstimatorSettings settings = render::estimator_settings(all_.scene);
+    all_.scene.sampling.seed = all_.first_seed;
     settings.kind = combination.estimator;
     settings.m = combination.m;
     settings.N = N;
-    settings.seed += seed;
     render::RenderOptions options;
     options.threads = all_.settings.threads;
     options.cancel = &cancel_;
