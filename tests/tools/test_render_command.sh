@@ -18,7 +18,7 @@ check_unknown_words() {
     refuses 'a misspelt option gets the nearest name' 2 "*--estimatr*did you mean '--estimator'*" render --estimatr sobol
     refuses 'a misspelt option with a value attached gets the nearest name' 2 "*did you mean '--size'*" render --siz=2x2
     refuses 'an unknown letter gets the allowed options' 2 '*-Q: unknown option*--quiet*' render -Q
-    refuses 'no command names the commands' 2 '*render, scenes, probe, converge*'
+    refuses 'no command names the commands' 2 '*render, scenes, probe*'
     refuses 'a second scene is one argument too many' 2 '*planet: one argument too many*' render terrain planet
     refuses 'a misspelt scene gets the nearest name' 2 "*did you mean 'hyperterrain'*" render hyperterain
     refuses 'a misspelt scene to print gets the nearest name' 2 "*did you mean 'terrain'*" scenes terain

@@ -156,7 +156,8 @@ double Run::reference_cost_s(int largest_N) const {
     }
     double sum = 0;
     for (const int m : reference_orders()) {
-        if (!has_exact_reference(all_.scene, m)) sum += 2 * std::pow(reference_N(largest_N), 2) * slowest;
+        if (!has_exact_reference(all_.scene, m))
+            sum += 2 * kPassesOfAHalf * std::pow(reference_N(largest_N), 2) * slowest;
     }
     const double cores = static_cast<double>(std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN)));
     return reference_threads_ == 0 ? sum / cores : sum;

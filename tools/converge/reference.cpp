@@ -67,9 +67,10 @@ std::optional<ConvergeReference> make_reference(const scene::Scene& scene, int m
         render::RenderOptions options;
         options.threads = threads;
         options.cancel = &cancel;
-        render::RenderResult result = render::render(*image_function, render::Estimator(settings), window, options);
-        if (result.cancelled) return std::nullopt;
-        half[i] = std::move(result.film);
+        render::ProgressiveResult result =
+            render::render_progressively(*image_function, settings, window, {.passes = kPassesOfAHalf}, options);
+        if (result.render.cancelled) return std::nullopt;
+        half[i] = std::move(result.render.film);
     }
     ConvergeReference reference;
     reference.m = m;
@@ -83,8 +84,9 @@ std::optional<ConvergeReference> make_reference(const scene::Scene& scene, int m
         squares += glm::dot(a - b, a - b) / 3;
     }
     reference.error = 0.5 * std::sqrt(squares / static_cast<double>(pixels.size()));
-    reference.how =
-        fmt::format("the engine: two halves of {0} x {0} shared-sobol samples a pixel, seeds of their own", N);
+    reference.how = fmt::format(
+        "the engine: two halves of {0} renders with {1} x {1} shared-sobol samples a pixel, seeds of their own",
+        kPassesOfAHalf, N);
     finish(reference, pixels);
     return reference;
 }

@@ -5,8 +5,12 @@
 
 namespace strata::tools {
 
-// The exact picture of order m where there is one; else the engine's at N samples a side with shared Sobol points, the
-// mean of two halves with seeds of their own, whose difference gives its error. Nothing when cancelled.
+// Renders of each half of an engine's reference.
+inline constexpr int kPassesOfAHalf = 2;
+
+// The exact picture of order m where there is one; else the engine's at N samples a side with shared Sobol points: the
+// mean of two halves of kPassesOfAHalf renders, with seeds of their own, whose difference gives its error. Nothing when
+// cancelled.
 std::optional<ConvergeReference> make_reference(const scene::Scene& scene, int m, int N, int threads,
                                                 const render::CancelToken& cancel);
 
