@@ -29,8 +29,6 @@ constexpr double kOverhead_s = 2.5e-3;  // of a point besides the render: compar
 constexpr double kPlannedShare = 0.85;  // of what is left of the budget, since the machine may slow down
 constexpr double kReport_s = 4;         // for the report and its plots
 
-int order_of(EstimatorKind kind, int m) { return kind == EstimatorKind::super ? 1 : m; }
-
 class Run {
   public:
     Run(const scene::Scene& scene, const ConvergeSettings& settings, render::ProgressPrinter& progress,
@@ -298,23 +296,6 @@ Experiment Run::run() {
 }
 
 }  // namespace
-
-RootMean ConvergePoint::rmse() const { return root_mean(mean_squares, fixed); }
-
-const ConvergeReference& Experiment::reference_of(const ConvergePoint& point) const {
-    const int order = order_of(point.estimator, point.m);
-    return *std::ranges::find_if(references, [order](const ConvergeReference& r) { return r.m == order; });
-}
-
-bool unbiased(EstimatorKind kind) {
-    return kind == EstimatorKind::stratified || kind == EstimatorKind::random || kind == EstimatorKind::sobol;
-}
-
-bool deterministic(EstimatorKind kind, const scene::Scene& scene) {
-    if (kind == EstimatorKind::none) return true;
-    const bool instant = !(scene.shutter.open_s > 0);
-    return instant && (kind == EstimatorKind::super || kind == EstimatorKind::uniform);
-}
 
 Experiment run_experiment(const scene::Scene& scene, const ConvergeSettings& settings,
                           render::ProgressPrinter& progress, const render::CancelToken& cancel) {

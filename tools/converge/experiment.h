@@ -70,6 +70,9 @@ struct Experiment {
     const ConvergeReference& reference_of(const ConvergePoint& point) const;
 };
 
+// The order of the filter that the estimator asked for order m applies.
+int order_of(scene::EstimatorKind kind, int m);
+
 // Whether the estimator's pixels have the filtered picture as expectation and are independent of each other, so that
 // the tests of bias apply.
 bool unbiased(scene::EstimatorKind kind);
