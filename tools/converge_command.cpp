@@ -118,7 +118,7 @@ ConvergeSettings parse_settings(const ConvergeRequest& request, const scene::Sce
 }
 
 fs::path prepare_folder(const std::string& folder, const std::string& name) {
-    const fs::path path = folder.empty() ? fs::path(name + "-converge") : fs::path(folder);
+    fs::path path = folder.empty() ? fs::path(name + "-converge") : fs::path(folder);
     std::error_code error;
     fs::create_directories(path, error);
     if (!fs::is_directory(path)) {

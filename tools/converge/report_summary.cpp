@@ -98,8 +98,10 @@ std::string advice(const ConvergeReport& report, int m, std::size_t target) {
             fmt::format("`{}`, {}{}", scene::name_of(best->estimator), reach_mark(time.reach), time_text(time.seconds));
         if (best->estimator == EstimatorKind::stratified) {
             text += ", the paper's method itself";
-        } else if (best->speed_ups[target]) {
-            text += fmt::format(", {:.2g} times as fast as the paper's method", *best->speed_ups[target]);
+        } else if (const auto& speed_up = best->speed_ups[target]; speed_up && *speed_up < 1.05) {
+            text += ", no faster than the paper's method to speak of";
+        } else if (speed_up) {
+            text += fmt::format(", {:.2g} times as fast as the paper's method", *speed_up);
         }
     }
     if (grid != nullptr && (best == nullptr || grid->times[target]->seconds < best->times[target]->seconds)) {
