@@ -13,5 +13,6 @@ void add_strip_command(CLI::App& program, int& exit_code);
 void add_sweep_command(CLI::App& program, int& exit_code);
 void add_animate_command(CLI::App& program, int& exit_code);
 void add_figures_command(CLI::App& program, int& exit_code);
+void add_stability_command(CLI::App& program, int& exit_code);
 
 }  // namespace strata::tools

@@ -16,7 +16,7 @@
 #include "noise/bounds.h"
 #include "noise/noise.h"
 #include "tests/noise/oracle_jet.h"
-#include "tests/oracles/field_oracle.h"
+#include "tools/stability/oracles/field_oracle.h"
 
 namespace {
 

@@ -13,7 +13,7 @@
 
 #include "noise/reference.h"
 #include "tests/noise/hash_statistics.h"
-#include "tests/oracles/noise_oracle.h"
+#include "tools/stability/oracles/noise_oracle.h"
 
 namespace {
 

@@ -9,7 +9,8 @@
 #include "src/trace/fast_tracer.h"
 #include "src/trace/field.h"
 #include "src/trace/shadow_ray.h"
-#include "tests/oracles/ray_oracle.h"
+#include "tools/stability/oracles/ray_oracle.h"
+#include "tools/stability/oracles/shape_of.h"
 
 namespace strata::trace_test {
 
@@ -60,25 +61,7 @@ inline scene::Surface random_drifting_surface(Random& random) {
     return surface;
 }
 
-inline oracle::Shape shape_of(const scene::Surface& s, double time = 0.0) {
-    oracle::Shape shape;
-    shape.kind = static_cast<oracle::Kind>(s.kind);
-    shape.octaves = s.octaves;
-    shape.lacunarity = s.lacunarity;
-    shape.gain = s.gain;
-    shape.amplitude = s.amplitude;
-    shape.frequency = s.frequency;
-    shape.seed = s.seed;
-    shape.radius = s.radius;
-    shape.threshold = s.threshold;
-    shape.drift = {s.drift.x, s.drift.y, s.drift.z};
-    shape.time = time;
-    if (s.kind == scene::SurfaceKind::isosurface) {
-        shape.container = s.bound == scene::BoundKind::ball ? oracle::Container::ball : oracle::Container::box;
-        shape.container_size = {s.bound_size.x, s.bound_size.y, s.bound_size.z};
-    }
-    return shape;
-}
+using oracle::shape_of;
 
 // How many rays of each family were made; one that a surface does not yield falls back on an outer one.
 struct FamilyCounts {

@@ -1,5 +1,5 @@
 // The oracle of field_oracle.h itself: its certainty, its rays against a dense scan, its clipping.
-#include "tests/oracles/field_oracle.h"
+#include "tools/stability/oracles/field_oracle.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "noise/bounds.h"
-#include "tests/oracles/ray_oracle.h"
+#include "tools/stability/oracles/ray_oracle.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // The oracle of ray_oracle.h itself: it passes correct reports and catches planted errors.
-#include "tests/oracles/ray_oracle.h"
+#include "tools/stability/oracles/ray_oracle.h"
 
 #include <doctest/doctest.h>
 

@@ -14,9 +14,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
-#include "tests/oracles/field_oracle.h"
+#include "tools/stability/oracles/field_oracle.h"
 
 namespace strata::oracle {
 
@@ -30,6 +31,7 @@ struct Verdict {
     Span stretch;            // the first stretch with f < 0 longer than delta before the claim
     bool unfounded = false;  // (ii) is violated: f > 0 within delta of the hit
     bool undecided = false;  // (ii) is neither shown nor refuted within the probes allowed: f almost touches 0 there
+    bool cut_short = false;  // (i) was looked at up to the walk's limit of probes only
     double thickest = 0.0;   // longest stretch with f < 0 before the claim, over its delta
     long probes = 0;
 
@@ -39,7 +41,11 @@ struct Verdict {
 template <class RayFunction, class Delta>
 class RayJudge {
   public:
-    RayJudge(const RayFunction& f, const Delta& delta) : f_(f), delta_(delta) {}
+    // most_probes: of the walk along the ray.
+    RayJudge(const RayFunction& f, const Delta& delta, long most_probes = kNoLimit)
+        : f_(f), delta_(delta), most_probes_(most_probes) {}
+
+    static constexpr long kNoLimit = std::numeric_limits<long>::max();
 
     // span is the part of the ray where there may be a surface. A hit before its begin or after its end is founded if
     // it is within delta of a point with f <= 0 inside.
@@ -81,6 +87,10 @@ class RayJudge {
         while (t < range.end && !verdict_.missed) {
             const double next = std::min(range.end, t + step(here, delta_(t) / 4.0));
             if (next == t) break;
+            if (verdict_.probes > most_probes_) {
+                verdict_.cut_short = true;
+                return;
+            }
             here = probe(next);
             if (here.f < 0.0) {
                 if (!inside_since) inside_since = bisect(t, next);
@@ -102,7 +112,7 @@ class RayJudge {
             return;
         }
         Span part{stretch.begin, stretch.begin};
-        while (part.end < stretch.end && part.end - part.begin <= limit) {
+        while (part.end < stretch.end && part.end - part.begin <= limit && verdict_.probes <= most_probes_) {
             const Probe here = probe(part.end);
             part.end = std::min(stretch.end, part.end + step(here, limit / 1024.0));
             if (!(here.f < 0.0)) part.begin = part.end;
@@ -145,23 +155,25 @@ class RayJudge {
 
     const RayFunction& f_;
     const Delta& delta_;
+    long most_probes_;
     Verdict verdict_;
     long last_probe_ = 0;
 };
 
 template <class RayFunction, class Delta>
-Verdict judge_ray(const RayFunction& f, const Span& span, const Delta& delta, const Claim& claim) {
-    return RayJudge<RayFunction, Delta>(f, delta).judge(span, claim);
+Verdict judge_ray(const RayFunction& f, const Span& span, const Delta& delta, const Claim& claim,
+                  long most_probes = RayJudge<RayFunction, Delta>::kNoLimit) {
+    return RayJudge<RayFunction, Delta>(f, delta, most_probes).judge(span, claim);
 }
 
 // The ray p + t direction, t in [0, limit], direction of unit length, against a surface.
 template <class Delta>
 Verdict judge_ray(const FieldOracle& field, const Vec& p, const Vec& direction, double limit, const Delta& delta,
-                  const Claim& claim) {
+                  const Claim& claim, long most_probes = std::numeric_limits<long>::max()) {
     const auto f = [&](double t) {
         return field.probe({p[0] + t * direction[0], p[1] + t * direction[1], p[2] + t * direction[2]}, direction);
     };
-    return judge_ray(f, clip(field.shape(), p, direction, limit), delta, claim);
+    return judge_ray(f, clip(field.shape(), p, direction, limit), delta, claim, most_probes);
 }
 
 }  // namespace strata::oracle

@@ -16,7 +16,7 @@
 #include <limits>
 #include <vector>
 
-#include "tests/oracles/noise_oracle.h"
+#include "tools/stability/oracles/noise_oracle.h"
 
 namespace strata::oracle {
 
@@ -39,6 +39,7 @@ struct Shape {
     Vec container_size{};  // ball: radius first; box: half sizes
     Vec drift{};           // of the noise, a second
     double time = 0.0;     // seconds
+    double lift = 0.0;     // added to f
 };
 
 struct OracleOctave {
@@ -94,17 +95,18 @@ class FieldOracle {
 
     template <class Real = double>
     Real base(const Vec& p) const {
+        const Real lift = Real(shape_.lift);
         switch (shape_.kind) {
             case Kind::terrain:
             case Kind::hyperterrain:
-                return Real(p[1]);
+                return Real(p[1]) + lift;
             case Kind::planet:
                 return std::sqrt(Real(p[0]) * Real(p[0]) + Real(p[1]) * Real(p[1]) + Real(p[2]) * Real(p[2])) -
-                       Real(shape_.radius);
+                       Real(shape_.radius) + lift;
             case Kind::isosurface:
                 break;
         }
-        return Real(shape_.threshold);
+        return Real(shape_.threshold) + lift;
     }
 
     // The sign of f at p and how far it is certain along the line p + s direction (unit length). Adds octaves, coarsest

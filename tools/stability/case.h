@@ -1,0 +1,84 @@
+// A case of `strata stability`: a stiff or extreme situation, what is measured in it, and the bound that arithmetic or a
+// stated contract gives. No bound is tuned: its derivation stands beside it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "src/render/cancel.h"
+
+namespace strata::tools::stability {
+
+// What a row is for. `information` documents the paper's method or how far a bound is from being reached, and does not
+// fail.
+enum class Kind { check, information };
+
+struct Row {
+    std::string name;
+    Kind kind = Kind::check;
+    double measured = 0.0;
+    double bound = 0.0;  // checks: measured <= bound
+    std::string unit;
+    std::string detail;  // the worst input, so that it can be replayed, and counts
+    std::string group;   // filled in by the runner
+
+    bool pass() const { return kind == Kind::information || measured <= bound; }
+};
+
+struct Settings {
+    bool fast = false;
+    std::uint64_t seed = 1;
+    const render::CancelToken* cancel = nullptr;
+
+    bool cancelled() const { return cancel != nullptr && cancel->requested(); }
+    // A number of trials: all of them, or the fast subset's.
+    int trials(int full, int subset) const { return fast ? subset : full; }
+};
+
+using Random = std::mt19937_64;
+
+struct Case {
+    std::string group;
+    std::string name;
+    std::function<std::vector<Row>(const Settings&, Random&)> run;
+    std::string simd_target;  // runs with it pinned; empty: the machine's best
+};
+
+// The largest of what it sees, and where. NaN counts as larger than everything.
+class Worst {
+  public:
+    // describe() -> std::string is called for a new largest value only.
+    template <class Describe>
+    void see(double value, const Describe& describe) {
+        ++count_;
+        if (value <= value_ || is_nan_) return;
+        is_nan_ = value != value;
+        value_ = value;
+        where_ = describe();
+    }
+
+    double value() const { return value_; }
+    const std::string& where() const { return where_; }
+    long count() const { return count_; }
+
+  private:
+    double value_ = -1.0;
+    bool is_nan_ = false;
+    std::string where_;
+    long count_ = 0;
+};
+
+// One function a file; each appends its cases.
+void add_bspline_cases(std::vector<Case>& cases);
+void add_paper_cases(std::vector<Case>& cases);
+void add_noise_cases(std::vector<Case>& cases);
+void add_tracing_cases(std::vector<Case>& cases);
+void add_shadow_cases(std::vector<Case>& cases);
+void add_invariance_cases(std::vector<Case>& cases);
+void add_sum_cases(std::vector<Case>& cases);
+void add_motion_cases(std::vector<Case>& cases);
+
+}  // namespace strata::tools::stability
