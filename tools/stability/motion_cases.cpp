@@ -1,4 +1,176 @@
+// Time: an instant, a whole turn in one frame, and the distribution of sample times by order.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "src/filter/bspline_table.h"
+#include "src/render/make_image.h"
+#include "src/render/render.h"
 #include "tools/stability/case.h"
+#include "tools/stability/scene_spec.h"
+
 namespace strata::tools::stability {
-void add_motion_cases(std::vector<Case>&) {}
+
+namespace {
+
+render::Film picture(const scene::Scene& scene) {
+    render::RenderOptions options;
+    options.threads = 1;
+    return render::render(*render::make_image(scene), render::Estimator(render::estimator_settings(scene)),
+                          {0, 0, scene.film.width, scene.film.height}, options)
+        .film;
+}
+
+// A shutter of 0 s is the instant t_k: the picture at rest, turned by hand to where the spin has brought it. The wheel's
+// pattern takes t itself, so that all bits agree; the surface is turned by another formula, whose directions differ by a
+// few roundings: nothing but a silhouette's hit may change, by tolerance.
+std::vector<Row> instant(const Settings& settings, Random&) {
+    double different = 0.0, spun = 0.0;
+    const std::string size = settings.fast ? "32" : "96";
+    for (const int frame : {0, 1, 7, 1000000}) {
+        const std::string set = fmt::format("shutter.frame={}", frame);
+        const SceneSpec wheel{"wheel", {"film.width=" + size, "film.height=" + size, "shutter.open_s=0", "sampling.N=2", set}};
+        const scene::Scene scene = wheel.scene();
+        const render::Film film = picture(scene);
+        const render::Estimator estimator(render::estimator_settings(scene));
+        const auto image = render::make_image(scene);
+        const double t = frame / scene.shutter.fps;
+        for (int y = 0; y < scene.film.height; ++y) {
+            for (int x = 0; x < scene.film.width; ++x) {
+                double sum = 0.0;
+                const auto samples = estimator.probe_samples(x, y);
+                for (const render::ProbeSample& s : samples) {
+                    const double u = x + 0.5 + s.u, v = y + 0.5 + s.v;
+                    glm::vec3 radiance;
+                    render::Counters counters;
+                    image->evaluate({{&u, 1}, {&v, 1}, {&t, 1}}, {&radiance, 1}, counters);
+                    sum += static_cast<double>(radiance.r);
+                    spun += s.time_s != t;
+                }
+                different += static_cast<float>(sum / static_cast<double>(samples.size())) != film.at(x, y).r;
+            }
+        }
+    }
+    return {{"shutter 0: samples not at the frame's instant", Kind::check, spun, 0.0, "samples", "wheel, frames 0, 1, 7, 10^6", {}},
+            {"shutter 0: pixels that differ from the instant's", Kind::check, different, 0.0, "pixels", "wheel, frames 0, 1, 7, 10^6", {}}};
+}
+
+// Mean and variance of the times against l s^2 / 12, and the support. One sample in each of n strata of probability: for
+// a function g of the time whose total variation over the quantiles is V, the mean over the samples is within V / n of
+// the integral. For t itself V = l s; for its square about the middle V = 2 (l s / 2)^2. The float table adds 1e-6 s at
+// most, and time, a double, a few of its roundings.
+std::vector<Row> distribution(const Settings& settings, Random& random) {
+    Worst mean_error, variance_error, beyond;
+    for (int order = 1; order <= 8; ++order) {
+        render::EstimatorSettings chosen;
+        chosen.N = 64;
+        chosen.time_order = order;
+        chosen.seed = random();
+        chosen.shutter = {7 / 25.0, 0.033};
+        const render::Estimator estimator(chosen);
+        const double s = chosen.shutter.open_s, middle = 7 / 25.0 + 0.5 * s;
+        const double table = (filter::kTableError + 1e-12) * s;
+        for (int pixel = 0; pixel < settings.trials(40, 4); ++pixel) {
+            double sum = 0.0, squares = 0.0;
+            const auto samples = estimator.probe_samples(pixel, -pixel);
+            const auto where = [&] { return fmt::format("order {}, pixel {},{}, seed {}", order, pixel, -pixel, chosen.seed); };
+            for (const render::ProbeSample& sample : samples) {
+                const double t = sample.time_s - middle;
+                sum += t;
+                squares += t * t;
+                beyond.see(std::abs(t) - 0.5 * order * s, where);
+            }
+            const double n = static_cast<double>(samples.size());
+            mean_error.see(std::abs(sum / n) / (order * s / n + table), where);
+            const double half = 0.5 * order * s;
+            variance_error.see(std::abs(squares / n - order * s * s / 12.0) / (2.0 * half * half / n + 2.0 * half * table), where);
+        }
+    }
+    return {{"times of order l = 1..8: mean, share of its bound", Kind::check, mean_error.value(), 1.0, "of bound", mean_error.where(), {}},
+            {"times of order l = 1..8: variance l s^2 / 12, share of its bound", Kind::check, variance_error.value(), 1.0, "of bound", variance_error.where(), {}},
+            {"times of order l = 1..8: beyond the support l s", Kind::check, std::max(0.0, beyond.value()), (filter::kTableError + 1e-12) * 0.033, "s", beyond.where(), {}}};
+}
+
+// A square column, solid, that turns once about its axis while the shutter is open, seen by level rays: at distance d
+// from the axis it is met where a (|cos| + |sin|) >= d, which is always for d <= a and for a share
+// acos(d / (a sqrt 2)) / (pi / 4) of the turn up to d = a sqrt 2.
+double column_cover(double distance, double half_side) {
+    if (distance <= half_side) return 1.0;
+    const double cosine = distance / (half_side * std::numbers::sqrt2);
+    return cosine >= 1.0 ? 0.0 : std::acos(cosine) / (0.25 * std::numbers::pi);
+}
+
+// The mean of a row of pixels: each of n samples a pixel sees the column with the cover of its own ray as probability,
+// its time being uniform in the turn. Strata of time and their permutation keep the variance of a pixel below
+// n / (n - 1) times that of n free draws; six standard deviations are met by chance once in 5e8.
+std::vector<Row> whole_turn(const Settings& settings, Random& random) {
+    const int width = 48;
+    const SceneSpec spec{"isosurface",
+                         {fmt::format("film.width={}", width), "film.height=1", "surface.amplitude=0", "surface.threshold=-1",
+                          "surface.bound=box", "surface.bound_size=[1,4,1]", "camera.position=[0,0,-6]", "camera.look_at=[0,0,0]",
+                          "camera.fov_deg=32", "sun.intensity=0", "sky.zenith=[1,1,1]", "sky.horizon=[1,1,1]", "material.low=[0,0,0]",
+                          "material.high=[0,0,0]", "material.steep=[0,0,0]", "surface.spin_axis=[0,1,0]",
+                          "surface.spin_deg_per_s=9000", "shutter.fps=25", "shutter.open_s=0.04", "shutter.frame=3",
+                          fmt::format("sampling.N={}", settings.fast ? 8 : 24), "sampling.m=1", fmt::format("sampling.seed={}", random() >> 2)}};
+    const scene::Scene scene = spec.scene();
+    const render::Film film = picture(scene);
+    const double n = scene.sampling.N * scene.sampling.N;
+    const double pixel = 2.0 * std::tan(0.5 * scene.camera.fov_deg / 180.0 * std::numbers::pi) / width;
+    Worst worst;
+    for (int x = 0; x < width; ++x) {
+        double cover = 0.0, variance = 0.0;
+        constexpr int kPoints = 2000;
+        for (int i = 0; i < kPoints; ++i) {
+            const double tangent = std::abs((x + (i + 0.5) / kPoints - 0.5 * width) * pixel);
+            const double p = column_cover(6.0 * tangent / std::sqrt(1.0 + tangent * tangent), 1.0);
+            cover += p / kPoints;
+            variance += p * (1.0 - p) / kPoints;
+        }
+        // A pixel's cover varies across it as well, which strata of space only lessen.
+        const double spread = variance + std::max(0.0, cover * (1.0 - cover) - variance);
+        const double bound = 6.0 * std::sqrt(spread / (n - 1.0)) + 1e-6;
+        worst.see(std::abs(1.0 - static_cast<double>(film.at(x, 0).r) - cover) / bound,
+                  [&] { return fmt::format("pixel {}: cover {:.6f} for {:.6f}", x, 1.0 - static_cast<double>(film.at(x, 0).r), cover); });
+    }
+    return {{"one full turn in a frame: the column's cover, share of six sigma", Kind::check, worst.value(), 1.0, "of bound", worst.where(), {}}};
+}
+
+// The wheel, a whole number of spokes a shutter: every pixel between hub and rim is 1 - spoke_fill on average. Over all
+// of them the mean of M pixels of n samples errs by less than six of its standard deviations.
+std::vector<Row> even_disc(const Settings& settings, Random& random) {
+    const SceneSpec spec{"wheel",
+                         {"film.width=64", "film.height=64", "wheel.spokes=12", "wheel.turns_per_s=25", "wheel.spoke_fill=0.4", "shutter.fps=25",
+                          "shutter.open_s=0.04", "sampling.m=1", fmt::format("sampling.N={}", settings.fast ? 4 : 16), fmt::format("sampling.seed={}", random() >> 2)}};
+    const scene::Scene scene = spec.scene();
+    const render::Film film = picture(scene);
+    const double n = scene.sampling.N * scene.sampling.N, variance = 0.4 * 0.6 / (n - 1.0);
+    Worst worst;
+    double sum = 0.0, count = 0.0;
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            // Wholly between hub and rim, whose radii are 0.15 and 0.8 of half the frame.
+            const double radius = std::hypot(x - 31.5, y - 31.5) / 32.0, corner = std::numbers::sqrt2 / 64.0;
+            if (radius - corner < 0.15 || radius + corner > 0.8) continue;
+            const double error = static_cast<double>(film.at(x, y).r) - 0.6;
+            sum += error;
+            count += 1.0;
+            worst.see(std::abs(error) / (7.0 * std::sqrt(variance)), [&] { return fmt::format("pixel {},{}: {:.6f}", x, y, 0.6 + error); });
+        }
+    }
+    return {{"the wheel, one full turn in a frame: mean of the disc", Kind::check, std::abs(sum / count), 6.0 * std::sqrt(variance / count), "radiance",
+             fmt::format("{} pixels of {} samples, expected 0.6", count, n), {}},
+            {"the wheel, one full turn in a frame: any pixel, share of seven sigma", Kind::check, worst.value(), 1.0, "of bound", worst.where(), {}}};
+}
+
+}  // namespace
+
+void add_motion_cases(std::vector<Case>& cases) {
+    cases.push_back({"motion", "shutter 0", instant, {}});
+    cases.push_back({"motion", "orders", distribution, {}});
+    cases.push_back({"motion", "whole turn of a column", whole_turn, {}});
+    cases.push_back({"motion", "whole turn of the wheel", even_disc, {}});
+}
+
 }  // namespace strata::tools::stability

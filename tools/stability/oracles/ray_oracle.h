@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "tools/stability/oracles/field_oracle.h"
 
@@ -80,10 +79,11 @@ class RayJudge {
     }
 
     void find_missed(const Span& range) {
-        std::optional<double> inside_since;
+        bool is_inside = false;
+        double inside_since = 0.0;
         double t = range.begin;
         Probe here = probe(t);
-        if (here.f < 0.0) inside_since = t;
+        if (here.f < 0.0) is_inside = true, inside_since = t;
         while (t < range.end && !verdict_.missed) {
             const double next = std::min(range.end, t + step(here, delta_(t) / 4.0));
             if (next == t) break;
@@ -93,14 +93,15 @@ class RayJudge {
             }
             here = probe(next);
             if (here.f < 0.0) {
-                if (!inside_since) inside_since = bisect(t, next);
-            } else if (inside_since) {
-                weigh({*inside_since, bisect(next, t)});
-                inside_since.reset();
+                if (!is_inside) inside_since = bisect(t, next);
+                is_inside = true;
+            } else if (is_inside) {
+                weigh({inside_since, bisect(next, t)});
+                is_inside = false;
             }
             t = next;
         }
-        if (inside_since && !verdict_.missed) weigh({*inside_since, range.end});
+        if (is_inside && !verdict_.missed) weigh({inside_since, range.end});
     }
 
     // A stretch whose samples were all inside: is some part of it that is longer than delta inside throughout?

@@ -1,0 +1,127 @@
+#include "tools/stability/ray_jury.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/render/estimator.h"
+#include "tools/stability/oracles/ray_oracle.h"
+#include "tools/stability/oracles/shape_of.h"
+
+namespace strata::tools::stability {
+
+namespace {
+
+// Probes of the walk along one ray, so that a run ends in time; a ray that is cut short counts as judged so far.
+constexpr long kMostProbes = 60000;
+
+oracle::Vec as_vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+}  // namespace
+
+RayJury::RayJury(const SceneSpec& spec, const Settings& settings)
+    : spec_(spec), scene_(spec.scene()), settings_(settings), image_(scene_, render::Tracer::fast) {}
+
+trace::Ray RayJury::local(const WorldRay& ray) const {
+    const trace::Placement& placement = image_.placement();
+    const glm::dmat3 orientation = placement.orientation(render::estimator_settings(scene_).shutter.middle_s());
+    const trace::Ray world = ray.pixel ? image_.camera_ray(ray.pixel->x + 0.5, ray.pixel->y + 0.5)
+                                       : image_.world_ray(ray.origin, ray.direction);
+    return placement.to_local(orientation, world);
+}
+
+std::vector<trace::Hit> RayJury::trace(std::span<const trace::Ray> rays) const {
+    std::vector<trace::Hit> hits(rays.size());
+    trace::TraceCounters counters;
+    image_.trace(rays, hits, counters);
+    return hits;
+}
+
+std::string RayJury::replay(const WorldRay& ray) const {
+    if (ray.pixel) return spec_.command("probe ray", fmt::format("--pixel {},{}", ray.pixel->x, ray.pixel->y));
+    return fmt::format("echo {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} | ", ray.origin.x, ray.origin.y, ray.origin.z,
+                       ray.direction.x, ray.direction.y, ray.direction.z) +
+           spec_.command("probe ray");
+}
+
+// What double arithmetic leaves open of f at a point up to `size` from the origin, for tracer and oracle alike, with
+// u = 2^-53: positions are rounded by 3 u of their size along the ray and 2 u on the way to lattice cells, each worth
+// L; |x| - R by 4 u of |x|; K octaves by 40 u of their amplitude each (a few ulp of eight corners) and K + 1 of the sum.
+// Twice that, since both sides err: less than 2^-49 times the sizes.
+double RayJury::rounding(double size) const {
+    const trace::Field& f = image_.field();
+    const double radius = f.kind() == scene::SurfaceKind::planet ? f.surface().radius : 0.0;
+    const double octaves = static_cast<double>(f.octaves().size());
+    return 0x1p-49 * (f.lipschitz() * size + radius + (octaves / 8.0 + 6.0) * f.amplitude());
+}
+
+void RayJury::judge(std::span<const WorldRay> world) {
+    std::vector<trace::Ray> rays;
+    for (const WorldRay& ray : world) rays.push_back(local(ray));
+    const std::vector<trace::Hit> hits = trace(rays);
+    for (std::size_t i = 0; i < rays.size() && !settings_.cancelled(); ++i) {
+        judge_claim(rays[i], hits[i], 0.0, [&] { return replay(world[i]); });
+    }
+}
+
+void RayJury::judge_claim(const trace::Ray& ray, const trace::Hit& hit, double displaced,
+                          const std::function<std::string()>& describe) {
+    ++rays_;
+    steps_ += hit.steps;
+    most_steps_.see(hit.steps, describe);
+    const bool is_hit = hit.state == trace::HitState::hit;
+    hits_ += is_hit;
+    const auto delta = [&](double s) { return ray.delta0 + ray.delta_slope * s; };
+    const oracle::Vec origin = as_vec(ray.origin), direction = as_vec(ray.direction);
+    const trace::Interval inside = image_.field().clip(ray.origin, ray.direction, ray.limit);
+    const double farthest = is_hit ? hit.s : std::min(ray.limit, std::max(inside.end, 0.0));
+    const double open = rounding(glm::length(ray.origin) + farthest) + field().lipschitz() * displaced;
+
+    // (i) counts stretches with f below the rounding, (ii) asks for a point with f no higher than it.
+    oracle::Shape shape = oracle::shape_of(scene_.surface);
+    shape.lift = open;
+    const oracle::Verdict passed =
+        judge_ray(oracle::FieldOracle(shape), origin, direction, ray.limit, delta, {is_hit, hit.s}, kMostProbes);
+    thickest_ = std::max(thickest_, passed.thickest);
+    cut_short_ += passed.cut_short;
+    bool unfounded = false;
+    if (is_hit) {
+        shape.lift = -open;
+        const oracle::FieldOracle lowered(shape);
+        const auto f = [&](double s) {
+            return lowered.probe({origin[0] + s * direction[0], origin[1] + s * direction[1], origin[2] + s * direction[2]},
+                                 direction);
+        };
+        oracle::Span span = oracle::clip(shape, origin, direction, ray.limit);
+        // Where a ray grazes the bounding body, the entry is as uncertain as the square root of rounding.
+        span.begin = std::max(span.begin, hit.s - delta(hit.s));
+        const oracle::Verdict founded = oracle::judge_ray(f, span, delta, {true, hit.s}, kMostProbes);
+        unfounded = founded.unfounded;
+        undecided_ += founded.undecided;
+    }
+    const bool unresolved = hit.state == trace::HitState::unresolved;
+    if (!passed.missed && !unfounded && !unresolved) return;
+    ++violations_;
+    violation_ = (unresolved ? std::string("unresolved: ")
+                  : unfounded ? fmt::format("f > 0 within {:.3g} of the hit at {:.17g}: ", delta(hit.s), hit.s)
+                              : fmt::format("passed over [{:.17g}, {:.17g}], {:.3g} of delta: ", passed.stretch.begin,
+                                            passed.stretch.end, passed.thickest)) +
+                 describe();
+}
+
+std::vector<Row> RayJury::rows(const std::string& name) const {
+    const double rays = std::max(1.0, static_cast<double>(rays_));
+    const std::string counts =
+        fmt::format("{} rays, {} hits; thickest stretch passed over {:.2g} delta; {} undecided, {} judged in part", rays_,
+                    hits_, thickest_, undecided_, cut_short_);
+    // A family without rays or hits has shown nothing.
+    const double broken = hits_ > 0 ? static_cast<double>(violations_) : std::numeric_limits<double>::quiet_NaN();
+    return {{name + ": broken promises", Kind::check, broken, 0.0, "rays",
+             violation_.empty() ? counts : violation_ + "; " + counts, {}},
+            {name + ": most steps of a ray", Kind::information, most_steps_.value(), 0.0, "steps",
+             fmt::format("mean {:.1f}; {}", steps_ / rays, most_steps_.where()), {}}};
+}
+
+}  // namespace strata::tools::stability

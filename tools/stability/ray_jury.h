@@ -1,0 +1,63 @@
+// Traces rays of a scene and has an oracle that shares no code with the tracers judge each by the two promises of
+// README.md: nothing thicker than delta is passed over, and within delta of a reported hit there is a point with f <= 0.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "src/render/surface_image.h"
+#include "tools/stability/case.h"
+#include "tools/stability/scene_spec.h"
+
+namespace strata::tools::stability {
+
+struct WorldRay {
+    glm::dvec3 origin{0.0};
+    glm::dvec3 direction{0.0, 0.0, 1.0};
+    std::optional<glm::ivec2> pixel;  // the camera's ray through its centre; else origin and direction count
+};
+
+class RayJury {
+  public:
+    RayJury(const SceneSpec& spec, const Settings& settings);
+
+    const scene::Scene& scene() const { return scene_; }
+    const render::SurfaceImage& image() const { return image_; }
+    const trace::Field& field() const { return image_.field(); }
+
+    // Of the scene at mid-shutter, in the surface's coordinates.
+    trace::Ray local(const WorldRay& ray) const;
+    std::vector<trace::Hit> trace(std::span<const trace::Ray> rays) const;
+
+    // Traces and judges.
+    void judge(std::span<const WorldRay> rays);
+
+    // Judges what was found along `ray`. displaced: how far off its points may be, in surface units. describe says how
+    // to replay it.
+    void judge_claim(const trace::Ray& ray, const trace::Hit& hit, double displaced,
+                     const std::function<std::string()>& describe);
+
+    // A bound of what rounding leaves open of f up to `size` from the surface's origin.
+    double rounding(double size) const;
+
+    // A check that no ray broke a promise or was left unresolved, and the statistics of steps.
+    std::vector<Row> rows(const std::string& name) const;
+
+    // How a ray is replayed on the command line.
+    std::string replay(const WorldRay& ray) const;
+
+  private:
+    SceneSpec spec_;
+    scene::Scene scene_;
+    Settings settings_;
+    render::SurfaceImage image_;
+    long rays_ = 0, hits_ = 0, violations_ = 0, undecided_ = 0, cut_short_ = 0;
+    double thickest_ = 0.0, steps_ = 0.0;
+    Worst most_steps_;
+    std::string violation_;
+};
+
+}  // namespace strata::tools::stability
