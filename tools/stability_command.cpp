@@ -69,7 +69,8 @@ std::vector<Output> outputs_of(const StabilityRequest& request) {
         const fs::path folder(request.folder);
         std::error_code error;
         fs::create_directories(folder, error);
-        if (error) throw image::ImageError(fmt::format("cannot make folder \"{}\": {}", folder.string(), error.message()));
+        if (error)
+            throw image::ImageError(fmt::format("cannot make folder \"{}\": {}", folder.string(), error.message()));
         outputs.push_back({folder / "stability.md", stability::markdown_table});
         outputs.push_back({folder / "stability.json", stability::json_table});
     }
@@ -109,11 +110,9 @@ int stability_command(const StabilityRequest& request) {
     const stability::Heading heading{fmt::format("{}", fmt::join(noise::simd_targets(), ", ")), settings.seed,
                                      settings.fast};
     const CaseLine line(request.quiet);
-    const std::vector<stability::Row> rows =
-        stability::run_cases(cases, settings, threads,
-                             [&](std::size_t done, std::size_t total, const stability::Case& next) {
-                                 line.show(done, total, next);
-                             });
+    const std::vector<stability::Row> rows = stability::run_cases(
+        cases, settings, threads,
+        [&](std::size_t done, std::size_t total, const stability::Case& next) { line.show(done, total, next); });
     line.clear();
     if (!request.quiet || stability::failures(rows) > 0) print_out(stability::text_table(rows));
     if (cancel.requested()) {

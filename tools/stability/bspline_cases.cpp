@@ -49,8 +49,15 @@ double inverse_bound(int m) {
 }
 
 std::vector<double> tails(int m, const Settings& settings, Random& random) {
-    std::vector<double> p{std::numeric_limits<double>::denorm_min(), 1e-300, 1e-100, 1e-30, 0x1p-53, 1e-8, 1e-3,
-                          std::nextafter(0.5, 0.0), 0.5};
+    std::vector<double> p{std::numeric_limits<double>::denorm_min(),
+                          1e-300,
+                          1e-100,
+                          1e-30,
+                          0x1p-53,
+                          1e-8,
+                          1e-3,
+                          std::nextafter(0.5, 0.0),
+                          0.5};
     std::uniform_real_distribution<double> exponent(-300.0, -0.4), uniform(0.0, 0.5);
     for (int i = 0; i < settings.trials(5, 2); ++i) p.push_back(std::pow(10.0, exponent(random)));
     for (int i = 0; i < settings.trials(5, 2); ++i) p.push_back(uniform(random));
@@ -107,12 +114,17 @@ std::vector<Row> strata_in_float(int low, int high, const Settings& settings, Ra
             }
         }
     }
-    return {{fmt::format("strata N = 64 through the float inverse, m = {}..{}", low, high), Kind::check,
-             worst.value() * px, px, "px", worst.where(), {}}};
+    return {{fmt::format("strata N = 64 through the float inverse, m = {}..{}", low, high),
+             Kind::check,
+             worst.value() * px,
+             px,
+             "px",
+             worst.where(),
+             {}}};
 }
 
-// n, N and 1 - N relative to themselves. Every term of the triangle is positive, so a level adds three roundings at most
-// (a difference, a product, a sum): (3 m + 5) 2^-53, and no more than the header's contract of 16 eps.
+// n, N and 1 - N relative to themselves. Every term of the triangle is positive, so a level adds three roundings at
+// most (a difference, a product, a sum): (3 m + 5) 2^-53, and no more than the header's contract of 16 eps.
 std::vector<Row> tail_values(const Settings& settings, Random& random) {
     Worst density, distribution, survival;
     std::uniform_real_distribution<double> exponent(-3.0, 0.0);
@@ -157,7 +169,8 @@ std::vector<Row> monotonicity(const Settings& settings, Random& random) {
         for (const double y : ys) {
             const double x = filter::bspline_inverse_cdf(m, y);
             in_double.see((before - x) / bound, [&] { return fmt::format("m = {}, y = {:.17g}", m, y); });
-            if (y > 1.01 * y_before && y < 0.5) strict.see(x > before ? 0.0 : 1.0, [&] { return fmt::format("m = {}, y = {:.17g}", m, y); });
+            if (y > 1.01 * y_before && y < 0.5)
+                strict.see(x > before ? 0.0 : 1.0, [&] { return fmt::format("m = {}, y = {:.17g}", m, y); });
             before = x;
             y_before = y;
         }
@@ -170,12 +183,27 @@ std::vector<Row> monotonicity(const Settings& settings, Random& random) {
         }
     }
     const double px = 2 * inverse_bound(100);
-    return {{"inverse in double: longest step back between neighbours", Kind::check, std::max(0.0, in_double.value()) * px,
-             px, "px", in_double.where(), {}},
-            {"inverse in double: pairs 1 % apart out of order", Kind::check, std::max(0.0, strict.value()), 0.0, "count",
-             strict.where(), {}},
-            {"inverse in float: longest step back at a cell's border", Kind::check, std::max(0.0, in_float.value()),
-             2 * filter::kTableError, "px", in_float.where(), {}}};
+    return {{"inverse in double: longest step back between neighbours",
+             Kind::check,
+             std::max(0.0, in_double.value()) * px,
+             px,
+             "px",
+             in_double.where(),
+             {}},
+            {"inverse in double: pairs 1 % apart out of order",
+             Kind::check,
+             std::max(0.0, strict.value()),
+             0.0,
+             "count",
+             strict.where(),
+             {}},
+            {"inverse in float: longest step back at a cell's border",
+             Kind::check,
+             std::max(0.0, in_float.value()),
+             2 * filter::kTableError,
+             "px",
+             in_float.where(),
+             {}}};
 }
 
 // x(p) + x(1 - p) = m and N(x) + S(x) = 1: m - x and 1 - N are single roundings, since 1 - p is exact for multiples of
@@ -212,7 +240,8 @@ std::vector<Row> not_a_number(const Settings& settings, Random&) {
                    std::isnan(filter::bspline_survival(m, nan)) && std::isnan(filter::bspline_inverse_cdf(m, nan)),
                "NaN");
         expect(filter::bspline_inverse_cdf(m, 0.0) == 0.0 && filter::bspline_inverse_cdf(m, 1.0) == m, "y = 0 or 1");
-        expect(filter::bspline_inverse_cdf(m, -infinity) == 0.0 && filter::bspline_inverse_cdf(m, infinity) == m, "infinite y");
+        expect(filter::bspline_inverse_cdf(m, -infinity) == 0.0 && filter::bspline_inverse_cdf(m, infinity) == m,
+               "infinite y");
         expect(filter::bspline_cdf(m, -infinity) == 0.0 && filter::bspline_cdf(m, infinity) == 1.0 &&
                    filter::bspline_pdf(m, infinity) == 0.0 && filter::bspline_pdf(m, -1e-300) == 0.0,
                "infinite x");
@@ -222,7 +251,8 @@ std::vector<Row> not_a_number(const Settings& settings, Random&) {
             expect(std::abs(x) <= 0.5f * static_cast<float>(m), "the float table leaves the support");
         }
     }
-    return {{"NaN, infinities, y = 0 and 1: wrong answers", Kind::check, wrong.value(), 0.0, "count", wrong.where(), {}}};
+    return {
+        {"NaN, infinities, y = 0 and 1: wrong answers", Kind::check, wrong.value(), 0.0, "count", wrong.where(), {}}};
 }
 
 }  // namespace
@@ -230,10 +260,14 @@ std::vector<Row> not_a_number(const Settings& settings, Random&) {
 void add_bspline_cases(std::vector<Case>& cases) {
     const std::string group = "bspline";
     for (const auto& [low, high] : {std::array{76, 100}, std::array{33, 75}, std::array{9, 32}, std::array{1, 8}}) {
-        cases.push_back({group, fmt::format("inverse in double, m = {}..{}", low, high),
-                         [=](const Settings& s, Random& r) { return inverse_in_double(low, high, s, r); }, {}});
-        cases.push_back({group, fmt::format("strata, m = {}..{}", low, high),
-                         [=](const Settings& s, Random& r) { return strata_in_float(low, high, s, r); }, {}});
+        cases.push_back({group,
+                         fmt::format("inverse in double, m = {}..{}", low, high),
+                         [=](const Settings& s, Random& r) { return inverse_in_double(low, high, s, r); },
+                         {}});
+        cases.push_back({group,
+                         fmt::format("strata, m = {}..{}", low, high),
+                         [=](const Settings& s, Random& r) { return strata_in_float(low, high, s, r); },
+                         {}});
     }
     cases.push_back({group, "tails", tail_values, {}});
     cases.push_back({group, "monotonicity", monotonicity, {}});

@@ -1,5 +1,5 @@
-// A case of `strata stability`: a stiff or extreme situation, what is measured in it, and the bound that arithmetic or a
-// stated contract gives. No bound is tuned: its derivation stands beside it.
+// A case of `strata stability`: a stiff or extreme situation, what is measured in it, and the bound that arithmetic or
+// a stated contract gives. No bound is tuned: its derivation stands beside it.
 #pragma once
 
 #include <cstdint>
@@ -75,7 +75,9 @@ class Worst {
 void add_bspline_cases(std::vector<Case>& cases);
 void add_paper_cases(std::vector<Case>& cases);
 void add_noise_cases(std::vector<Case>& cases);
+void add_noise_sum_cases(std::vector<Case>& cases);
 void add_tracing_cases(std::vector<Case>& cases);
+void add_random_scene_cases(std::vector<Case>& cases);
 void add_shadow_cases(std::vector<Case>& cases);
 void add_invariance_cases(std::vector<Case>& cases);
 void add_sum_cases(std::vector<Case>& cases);

@@ -28,7 +28,8 @@ struct Motion {
 glm::dvec3 turned(const glm::dvec3& degrees, const glm::dvec3& v) {
     std::array<long double, 3> x = {v.x, v.y, v.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const long double angle = static_cast<long double>(degrees[static_cast<int>(axis)]) / 180.0L * std::numbers::pi_v<long double>;
+        const long double angle =
+            static_cast<long double>(degrees[static_cast<int>(axis)]) / 180.0L * std::numbers::pi_v<long double>;
         const long double c = std::cos(angle), s = std::sin(angle);
         long double& a = x[(axis + 1) % 3];
         long double& b = x[(axis + 2) % 3];
@@ -43,12 +44,14 @@ SceneSpec moved(const SceneSpec& base, const Motion& motion) {
     const scene::Scene scene = base.scene();
     const auto point = [&](const glm::dvec3& x) { return motion.shift + turned(motion.turn_deg, motion.scale * x); };
     SceneSpec spec = base;
-    for (std::string set :
-         {set_vector("camera.position", point(scene.camera.position)), set_vector("camera.look_at", point(scene.camera.look_at)),
-          set_vector("camera.up", turned(motion.turn_deg, scene.camera.up)), set_number("camera.far", motion.scale * scene.camera.far),
-          set_vector("sun.direction", turned(motion.turn_deg, scene.sun.direction)),
-          set_vector("surface.origin", point(scene.surface.origin)), set_number("surface.scale", motion.scale * scene.surface.scale),
-          set_vector("surface.rotation_deg", motion.turn_deg)}) {
+    for (std::string set : {set_vector("camera.position", point(scene.camera.position)),
+                            set_vector("camera.look_at", point(scene.camera.look_at)),
+                            set_vector("camera.up", turned(motion.turn_deg, scene.camera.up)),
+                            set_number("camera.far", motion.scale * scene.camera.far),
+                            set_vector("sun.direction", turned(motion.turn_deg, scene.sun.direction)),
+                            set_vector("surface.origin", point(scene.surface.origin)),
+                            set_number("surface.scale", motion.scale * scene.surface.scale),
+                            set_vector("surface.rotation_deg", motion.turn_deg)}) {
         spec.sets.push_back(std::move(set));
     }
     return spec;
@@ -57,16 +60,17 @@ SceneSpec moved(const SceneSpec& base, const Motion& motion) {
 // White and lit by the sun alone, so that radiance is intensity / pi times the cosine of its light. Numbers are dyadic
 // so that moving them by whole cells is exact.
 SceneSpec base_spec(const std::string& name, bool shadows) {
-    SceneSpec spec{name,
-                   {"surface.spin_deg_per_s=0", "sampling.tolerance=0.01", "surface.octaves=4", "surface.frequency=0.25",
-                    "surface.amplitude=1", "sky.zenith=[0,0,0]", "sky.horizon=[0,0,0]", "sky.haze_distance=0",
-                    "material.low=[1,1,1]", "material.high=[1,1,1]", "material.steep=[1,1,1]", "sun.intensity=3.14159265358979312",
-                    "sun.colour=[1,1,1]", "sun.direction=[-0.75,0.5,0.25]", shadows ? "sun.shadows=true" : "sun.shadows=false"}};
+    SceneSpec spec{
+        name,
+        {"surface.spin_deg_per_s=0", "sampling.tolerance=0.01", "surface.octaves=4", "surface.frequency=0.25",
+         "surface.amplitude=1", "sky.zenith=[0,0,0]", "sky.horizon=[0,0,0]", "sky.haze_distance=0",
+         "material.low=[1,1,1]", "material.high=[1,1,1]", "material.steep=[1,1,1]", "sun.intensity=3.14159265358979312",
+         "sun.colour=[1,1,1]", "sun.direction=[-0.75,0.5,0.25]", shadows ? "sun.shadows=true" : "sun.shadows=false"}};
     const bool ball = name == "planet" || name == "isosurface";
     if (name == "isosurface") spec.sets.insert(spec.sets.end(), {"surface.bound_size=[8,8,8]"});
-    spec.sets.insert(spec.sets.end(), {ball ? "camera.position=[1.5,4.25,-22.5]" : "camera.position=[0.5,1.75,0.125]",
-                                       ball ? "camera.look_at=[0.5,0.25,0.125]" : "camera.look_at=[1.5,1.5,6.25]",
-                                       "camera.far=128"});
+    spec.sets.insert(spec.sets.end(),
+                     {ball ? "camera.position=[1.5,4.25,-22.5]" : "camera.position=[0.5,1.75,0.125]",
+                      ball ? "camera.look_at=[0.5,0.25,0.125]" : "camera.look_at=[1.5,1.5,6.25]", "camera.far=128"});
     return spec;
 }
 
@@ -97,14 +101,16 @@ Picture picture(const RayJury& jury) {
 }
 
 // How far rounding may put a point of the moved ray from the one it should be, in surface units, with u = 2^-53. Each
-// coordinate that was moved is rounded three times at most (turn, scale, shift) at the size of the largest, P: the eye is
-// off by 6 u P; the view's direction by twice as much over the distance to look_at, and by 24 u of its own arithmetic.
+// coordinate that was moved is rounded three times at most (turn, scale, shift) at the size of the largest, P: the eye
+// is off by 6 u P; the view's direction by twice as much over the distance to look_at, and by 24 u of its own
+// arithmetic.
 struct Displacement {
     double at_eye, an_unit;
 
     Displacement(const scene::Scene& scene, double scale) {
         const double u = 0x1p-53;
-        const double size = glm::length(scene.camera.position) + glm::length(scene.surface.origin) + glm::length(scene.camera.look_at);
+        const double size =
+            glm::length(scene.camera.position) + glm::length(scene.surface.origin) + glm::length(scene.camera.look_at);
         at_eye = 6.0 * u * size / scale;
         an_unit = 2.0 * 6.0 * u * size / glm::distance(scene.camera.position, scene.camera.look_at) + 24.0 * u;
     }
@@ -161,16 +167,31 @@ std::vector<Row> same_picture(const std::string& scene_name, const Motion& motio
     const double pixels = static_cast<double>(a.rays.size());
     std::vector<Row> rows = {at_rest.rows(name + ", its hits on the rays at rest").front()};
     if (motion.exact) {
-        rows.push_back({name + ": pixels that are not the same bits", Kind::check, static_cast<double>(different), 0.0,
-                        "pixels", fmt::format("of {}", pixels), {}});
+        rows.push_back({name + ": pixels that are not the same bits",
+                        Kind::check,
+                        static_cast<double>(different),
+                        0.0,
+                        "pixels",
+                        fmt::format("of {}", pixels),
+                        {}});
     } else {
-        rows.push_back({name + ": hits that are another silhouette's", Kind::information, 100.0 * flips / pixels, 0.0,
-                        "% of pixels", fmt::format("{} of {}", flips, pixels), {}});
+        rows.push_back({name + ": hits that are another silhouette's",
+                        Kind::information,
+                        100.0 * flips / pixels,
+                        0.0,
+                        "% of pixels",
+                        fmt::format("{} of {}", flips, pixels),
+                        {}});
     }
     if (height_field && !motion.exact) {
-        rows.push_back({name + ": radiance, share of its bound", Kind::check, ratio.value(), 1.0, "of bound",
-                        fmt::format("largest difference {:.3g} of radiance up to 1; bounds up to {:.3g}; {}", radiance.value(),
-                                    largest, ratio.where()), {}});
+        rows.push_back({name + ": radiance, share of its bound",
+                        Kind::check,
+                        ratio.value(),
+                        1.0,
+                        "of bound",
+                        fmt::format("largest difference {:.3g} of radiance up to 1; bounds up to {:.3g}; {}",
+                                    radiance.value(), largest, ratio.where()),
+                        {}});
     }
     return rows;
 }
@@ -182,10 +203,15 @@ std::vector<Row> with_shadows(const Motion& motion, const Settings& settings, Ra
     const RayJury at_rest(base, settings), elsewhere(moved(base, motion), settings);
     const Picture a = picture(at_rest), b = picture(elsewhere);
     int different = 0;
-    for (std::size_t i = 0; i < a.radiance.size(); ++i) different += std::abs(a.radiance[i] - b.radiance[i]) > 1.0 / 255.0;
-    return {{"terrain " + motion.name + ", shadows: pixel centres off by more than 1/255", Kind::information,
-             100.0 * different / static_cast<double>(a.radiance.size()), 0.0, "% of pixels",
-             fmt::format("{} of {}", different, a.radiance.size()), {}}};
+    for (std::size_t i = 0; i < a.radiance.size(); ++i)
+        different += std::abs(a.radiance[i] - b.radiance[i]) > 1.0 / 255.0;
+    return {{"terrain " + motion.name + ", shadows: pixel centres off by more than 1/255",
+             Kind::information,
+             100.0 * different / static_cast<double>(a.radiance.size()),
+             0.0,
+             "% of pixels",
+             fmt::format("{} of {}", different, a.radiance.size()),
+             {}}};
 }
 
 // 2^20 base cells are 2^22 surface units at a frequency of 1/4.
@@ -199,7 +225,11 @@ const std::vector<Motion>& motions() {
         {"turned by 90 degrees about y", 1.0, {0.0, 90.0, 0.0}, {}, false},
         {"turned by 90 degrees about each axis", 1.0, {90.0, 90.0, 90.0}, {}, false},
         {"turned by 17 degrees about each axis", 1.0, {17.0, 17.0, 17.0}, {}, false},
-        {"turned by 17, scaled by 2^10, moved", 0x1p10, {17.0, 17.0, 17.0}, glm::dvec3(4194303.1, -4000000.7, 3999999.3), false},
+        {"turned by 17, scaled by 2^10, moved",
+         0x1p10,
+         {17.0, 17.0, 17.0},
+         glm::dvec3(4194303.1, -4000000.7, 3999999.3),
+         false},
     };
     return table;
 }
@@ -209,12 +239,17 @@ const std::vector<Motion>& motions() {
 void add_invariance_cases(std::vector<Case>& cases) {
     for (const char* name : {"terrain", "hyperterrain", "planet", "isosurface"}) {
         for (const Motion& motion : motions()) {
-            cases.push_back({"invariance", std::string(name) + " " + motion.name,
-                             [=](const Settings& s, Random& r) { return same_picture(name, motion, s, r); }, {}});
+            cases.push_back({"invariance",
+                             std::string(name) + " " + motion.name,
+                             [=](const Settings& s, Random& r) { return same_picture(name, motion, s, r); },
+                             {}});
         }
     }
     for (const Motion& motion : motions()) {
-        cases.push_back({"invariance", "shadows " + motion.name, [=](const Settings& s, Random& r) { return with_shadows(motion, s, r); }, {}});
+        cases.push_back({"invariance",
+                         "shadows " + motion.name,
+                         [=](const Settings& s, Random& r) { return with_shadows(motion, s, r); },
+                         {}});
     }
 }
 

@@ -23,15 +23,16 @@ render::Film picture(const scene::Scene& scene) {
         .film;
 }
 
-// A shutter of 0 s is the instant t_k: the picture at rest, turned by hand to where the spin has brought it. The wheel's
-// pattern takes t itself, so that all bits agree; the surface is turned by another formula, whose directions differ by a
-// few roundings: nothing but a silhouette's hit may change, by tolerance.
+// A shutter of 0 s is the instant t_k: the picture at rest, turned by hand to where the spin has brought it. The
+// wheel's pattern takes t itself, so that all bits agree; the surface is turned by another formula, whose directions
+// differ by a few roundings: nothing but a silhouette's hit may change, by tolerance.
 std::vector<Row> instant(const Settings& settings, Random&) {
     double different = 0.0, spun = 0.0;
     const std::string size = settings.fast ? "32" : "96";
     for (const int frame : {0, 1, 7, 1000000}) {
         const std::string set = fmt::format("shutter.frame={}", frame);
-        const SceneSpec wheel{"wheel", {"film.width=" + size, "film.height=" + size, "shutter.open_s=0", "sampling.N=2", set}};
+        const SceneSpec wheel{"wheel",
+                              {"film.width=" + size, "film.height=" + size, "shutter.open_s=0", "sampling.N=2", set}};
         const scene::Scene scene = wheel.scene();
         const render::Film film = picture(scene);
         const render::Estimator estimator(render::estimator_settings(scene));
@@ -53,14 +54,26 @@ std::vector<Row> instant(const Settings& settings, Random&) {
             }
         }
     }
-    return {{"shutter 0: samples not at the frame's instant", Kind::check, spun, 0.0, "samples", "wheel, frames 0, 1, 7, 10^6", {}},
-            {"shutter 0: pixels that differ from the instant's", Kind::check, different, 0.0, "pixels", "wheel, frames 0, 1, 7, 10^6", {}}};
+    return {{"shutter 0: samples not at the frame's instant",
+             Kind::check,
+             spun,
+             0.0,
+             "samples",
+             "wheel, frames 0, 1, 7, 10^6",
+             {}},
+            {"shutter 0: pixels that differ from the instant's",
+             Kind::check,
+             different,
+             0.0,
+             "pixels",
+             "wheel, frames 0, 1, 7, 10^6",
+             {}}};
 }
 
-// Mean and variance of the times against l s^2 / 12, and the support. One sample in each of n strata of probability: for
-// a function g of the time whose total variation over the quantiles is V, the mean over the samples is within V / n of
-// the integral. For t itself V = l s; for its square about the middle V = 2 (l s / 2)^2. The float table adds 1e-6 s at
-// most, and time, a double, a few of its roundings.
+// Mean and variance of the times against l s^2 / 12, and the support. One sample in each of n strata of probability:
+// for a function g of the time whose total variation over the quantiles is V, the mean over the samples is within V / n
+// of the integral. For t itself V = l s; for its square about the middle V = 2 (l s / 2)^2. The float table adds 1e-6 s
+// at most, and time, a double, a few of its roundings.
 std::vector<Row> distribution(const Settings& settings, Random& random) {
     Worst mean_error, variance_error, beyond;
     for (int order = 1; order <= 8; ++order) {
@@ -75,7 +88,9 @@ std::vector<Row> distribution(const Settings& settings, Random& random) {
         for (int pixel = 0; pixel < settings.trials(40, 4); ++pixel) {
             double sum = 0.0, squares = 0.0;
             const auto samples = estimator.probe_samples(pixel, -pixel);
-            const auto where = [&] { return fmt::format("order {}, pixel {},{}, seed {}", order, pixel, -pixel, chosen.seed); };
+            const auto where = [&] {
+                return fmt::format("order {}, pixel {},{}, seed {}", order, pixel, -pixel, chosen.seed);
+            };
             for (const render::ProbeSample& sample : samples) {
                 const double t = sample.time_s - middle;
                 sum += t;
@@ -85,12 +100,31 @@ std::vector<Row> distribution(const Settings& settings, Random& random) {
             const double n = static_cast<double>(samples.size());
             mean_error.see(std::abs(sum / n) / (order * s / n + table), where);
             const double half = 0.5 * order * s;
-            variance_error.see(std::abs(squares / n - order * s * s / 12.0) / (2.0 * half * half / n + 2.0 * half * table), where);
+            variance_error.see(
+                std::abs(squares / n - order * s * s / 12.0) / (2.0 * half * half / n + 2.0 * half * table), where);
         }
     }
-    return {{"times of order l = 1..8: mean, share of its bound", Kind::check, mean_error.value(), 1.0, "of bound", mean_error.where(), {}},
-            {"times of order l = 1..8: variance l s^2 / 12, share of its bound", Kind::check, variance_error.value(), 1.0, "of bound", variance_error.where(), {}},
-            {"times of order l = 1..8: beyond the support l s", Kind::check, std::max(0.0, beyond.value()), (filter::kTableError + 1e-12) * 0.033, "s", beyond.where(), {}}};
+    return {{"times of order l = 1..8: mean, share of its bound",
+             Kind::check,
+             mean_error.value(),
+             1.0,
+             "of bound",
+             mean_error.where(),
+             {}},
+            {"times of order l = 1..8: variance l s^2 / 12, share of its bound",
+             Kind::check,
+             variance_error.value(),
+             1.0,
+             "of bound",
+             variance_error.where(),
+             {}},
+            {"times of order l = 1..8: beyond the support l s",
+             Kind::check,
+             std::max(0.0, beyond.value()),
+             (filter::kTableError + 1e-12) * 0.033,
+             "s",
+             beyond.where(),
+             {}}};
 }
 
 // A square column, solid, that turns once about its axis while the shutter is open, seen by level rays: at distance d
@@ -108,12 +142,29 @@ double column_cover(double distance, double half_side) {
 std::vector<Row> whole_turn(const Settings& settings, Random& random) {
     const int width = 48;
     const SceneSpec spec{"isosurface",
-                         {fmt::format("film.width={}", width), "film.height=1", "surface.amplitude=0", "surface.threshold=-1",
-                          "surface.bound=box", "surface.bound_size=[1,4,1]", "camera.position=[0,0,-6]", "camera.look_at=[0,0,0]",
-                          "camera.fov_deg=32", "sun.intensity=0", "sky.zenith=[1,1,1]", "sky.horizon=[1,1,1]", "material.low=[0,0,0]",
-                          "material.high=[0,0,0]", "material.steep=[0,0,0]", "surface.spin_axis=[0,1,0]",
-                          "surface.spin_deg_per_s=9000", "shutter.fps=25", "shutter.open_s=0.04", "shutter.frame=3",
-                          fmt::format("sampling.N={}", settings.fast ? 8 : 24), "sampling.m=1", fmt::format("sampling.seed={}", random() >> 2)}};
+                         {fmt::format("film.width={}", width),
+                          "film.height=1",
+                          "surface.amplitude=0",
+                          "surface.threshold=-1",
+                          "surface.bound=box",
+                          "surface.bound_size=[1,4,1]",
+                          "camera.position=[0,0,-6]",
+                          "camera.look_at=[0,0,0]",
+                          "camera.fov_deg=32",
+                          "sun.intensity=0",
+                          "sky.zenith=[1,1,1]",
+                          "sky.horizon=[1,1,1]",
+                          "material.low=[0,0,0]",
+                          "material.high=[0,0,0]",
+                          "material.steep=[0,0,0]",
+                          "surface.spin_axis=[0,1,0]",
+                          "surface.spin_deg_per_s=9000",
+                          "shutter.fps=25",
+                          "shutter.open_s=0.04",
+                          "shutter.frame=3",
+                          fmt::format("sampling.N={}", settings.fast ? 8 : 24),
+                          "sampling.m=1",
+                          fmt::format("sampling.seed={}", random() >> 2)}};
     const scene::Scene scene = spec.scene();
     const render::Film film = picture(scene);
     const double n = scene.sampling.N * scene.sampling.N;
@@ -131,18 +182,28 @@ std::vector<Row> whole_turn(const Settings& settings, Random& random) {
         // A pixel's cover varies across it as well, which strata of space only lessen.
         const double spread = variance + std::max(0.0, cover * (1.0 - cover) - variance);
         const double bound = 6.0 * std::sqrt(spread / (n - 1.0)) + 1e-6;
-        worst.see(std::abs(1.0 - static_cast<double>(film.at(x, 0).r) - cover) / bound,
-                  [&] { return fmt::format("pixel {}: cover {:.6f} for {:.6f}", x, 1.0 - static_cast<double>(film.at(x, 0).r), cover); });
+        worst.see(std::abs(1.0 - static_cast<double>(film.at(x, 0).r) - cover) / bound, [&] {
+            return fmt::format("pixel {}: cover {:.6f} for {:.6f}", x, 1.0 - static_cast<double>(film.at(x, 0).r),
+                               cover);
+        });
     }
-    return {{"one full turn in a frame: the column's cover, share of six sigma", Kind::check, worst.value(), 1.0, "of bound", worst.where(), {}}};
+    return {{"one full turn in a frame: the column's cover, share of six sigma",
+             Kind::check,
+             worst.value(),
+             1.0,
+             "of bound",
+             worst.where(),
+             {}}};
 }
 
 // The wheel, a whole number of spokes a shutter: every pixel between hub and rim is 1 - spoke_fill on average. Over all
 // of them the mean of M pixels of n samples errs by less than six of its standard deviations.
 std::vector<Row> even_disc(const Settings& settings, Random& random) {
-    const SceneSpec spec{"wheel",
-                         {"film.width=64", "film.height=64", "wheel.spokes=12", "wheel.turns_per_s=25", "wheel.spoke_fill=0.4", "shutter.fps=25",
-                          "shutter.open_s=0.04", "sampling.m=1", fmt::format("sampling.N={}", settings.fast ? 4 : 16), fmt::format("sampling.seed={}", random() >> 2)}};
+    const SceneSpec spec{
+        "wheel",
+        {"film.width=64", "film.height=64", "wheel.spokes=12", "wheel.turns_per_s=25", "wheel.spoke_fill=0.4",
+         "shutter.fps=25", "shutter.open_s=0.04", "sampling.m=1", fmt::format("sampling.N={}", settings.fast ? 4 : 16),
+         fmt::format("sampling.seed={}", random() >> 2)}};
     const scene::Scene scene = spec.scene();
     const render::Film film = picture(scene);
     const double n = scene.sampling.N * scene.sampling.N, variance = 0.4 * 0.6 / (n - 1.0);
@@ -156,12 +217,24 @@ std::vector<Row> even_disc(const Settings& settings, Random& random) {
             const double error = static_cast<double>(film.at(x, y).r) - 0.6;
             sum += error;
             count += 1.0;
-            worst.see(std::abs(error) / (7.0 * std::sqrt(variance)), [&] { return fmt::format("pixel {},{}: {:.6f}", x, y, 0.6 + error); });
+            worst.see(std::abs(error) / (7.0 * std::sqrt(variance)),
+                      [&] { return fmt::format("pixel {},{}: {:.6f}", x, y, 0.6 + error); });
         }
     }
-    return {{"the wheel, one full turn in a frame: mean of the disc", Kind::check, std::abs(sum / count), 6.0 * std::sqrt(variance / count), "radiance",
-             fmt::format("{} pixels of {} samples, expected 0.6", count, n), {}},
-            {"the wheel, one full turn in a frame: any pixel, share of seven sigma", Kind::check, worst.value(), 1.0, "of bound", worst.where(), {}}};
+    return {{"the wheel, one full turn in a frame: mean of the disc",
+             Kind::check,
+             std::abs(sum / count),
+             6.0 * std::sqrt(variance / count),
+             "radiance",
+             fmt::format("{} pixels of {} samples, expected 0.6", count, n),
+             {}},
+            {"the wheel, one full turn in a frame: any pixel, share of seven sigma",
+             Kind::check,
+             worst.value(),
+             1.0,
+             "of bound",
+             worst.where(),
+             {}}};
 }
 
 }  // namespace

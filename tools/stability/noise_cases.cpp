@@ -1,4 +1,5 @@
-// Gradient noise on every SIMD target against long double, at lattice planes, edges and corners and far from the origin.
+// Gradient noise on every SIMD target against long double, at lattice planes, edges and corners and far from the
+// origin.
 #include <fmt/format.h>
 
 #include <array>
@@ -9,8 +10,8 @@
 #include "noise/bounds.h"
 #include "noise/noise.h"
 #include "noise/simd_target.h"
+#include "src/trace/trace_plan.h"
 #include "tools/stability/case.h"
-#include "tools/stability/oracles/field_oracle.h"
 #include "tools/stability/oracles/noise_jet.h"
 
 namespace strata::tools::stability {
@@ -19,15 +20,15 @@ namespace {
 
 using oracle::Dual2;
 
-// Float evaluation for unit amplitude and fractions of [0,1], in units of 2^-24. The value's 367 and the slope's 2105
-// (along any unit direction; 26 and 70 of them not spent here) are derived in src/trace/trace_plan.h.
-constexpr double kValueError = 0x1p-15, kSlopeError = 0x1p-12;
+// Float evaluation for unit amplitude and fractions of [0,1], derived in src/trace/trace_plan.h: of the value, and of
+// the slope along any unit direction.
+constexpr double kValueError = trace::kNoiseFloatError, kSlopeError = trace::kSlopeFloatError;
 
-// An entry of the Hessian. On the diagonal: |fade''| <= 5.78 times the error 472 of a face difference, an error of 29 of
-// fade'' (five roundings) times the difference 3, 2 * 1.875 times the error 308 of a gradient component's difference,
-// the error 12 of fade' times 2 * 2: 4018. Off the diagonal: 1.875^2 times the error 500 of the mixed difference, two
-// fades' errors of 12 times 1.875 * 6, twice 1.875 * 308 and 12 * 2: 3231. The fraction's rounding through the third
-// derivative, 150.68 * sqrt(3): 261. A last sum: 75. In all below 4400 < 2^-11 / 2^-24.
+// An entry of the Hessian. On the diagonal: |fade''| <= 5.78 times the error 472 of a face difference, an error of 29
+// of fade'' (five roundings) times the difference 3, 2 * 1.875 times the error 308 of a gradient component's
+// difference, the error 12 of fade' times 2 * 2: 4018. Off the diagonal: 1.875^2 times the error 500 of the mixed
+// difference, two fades' errors of 12 times 1.875 * 6, twice 1.875 * 308 and 12 * 2: 3231. The fraction's rounding
+// through the third derivative, 150.68 * sqrt(3): 261. A last sum: 75. In all below 4400 < 2^-11 / 2^-24.
 constexpr double kHessianError = 0x1p-11;
 
 template <std::size_t D>
@@ -94,9 +95,9 @@ std::string place(const std::array<std::int64_t, D>& cell, const std::array<floa
 std::int64_t random_cell(Random& random, bool far) {
     const std::int64_t near = static_cast<std::int64_t>(random() % 9) - 4;
     if (!far) return near;
-    constexpr std::array<std::int64_t, 6> kFar = {
-        std::int64_t{1} << 31, std::int64_t{1} << 32, std::int64_t{3} << 31, std::int64_t{1} << 33,
-        std::int64_t{1} << 40, (std::int64_t{1} << 51) - 64};
+    constexpr std::array<std::int64_t, 6> kFar = {std::int64_t{1} << 31, std::int64_t{1} << 32,
+                                                  std::int64_t{3} << 31, std::int64_t{1} << 33,
+                                                  std::int64_t{1} << 40, (std::int64_t{1} << 51) - 64};
     const std::int64_t at = kFar[random() % kFar.size()];
     return (random() % 2 ? at : -at) + near;
 }
@@ -148,7 +149,12 @@ std::vector<Row> against_long_double(const Settings& settings, Random& random, c
             const Worst& worst = is_far ? far[i] : near[i];
             rows.push_back({fmt::format("{} {}-D {} {}", target, D, kNames[i],
                                         is_far ? "2^31 to 2^51 cells away, both signs" : "at planes, edges, corners"),
-                            Kind::check, worst.value(), kBounds[i], "absolute", worst.where(), {}});
+                            Kind::check,
+                            worst.value(),
+                            kBounds[i],
+                            "absolute",
+                            worst.where(),
+                            {}});
         }
     }
     return rows;
@@ -163,7 +169,8 @@ std::vector<Row> continuity(const Settings& settings, Random& random, const std:
     Worst corner;
     const noise::NoiseBounds& bounds = noise::kNoiseBounds<static_cast<int>(D)>;
     const double gap = 0x1p-24 * std::sqrt(static_cast<double>(D));
-    const std::array<double, 3> bound = {2 * kValueError + bounds.gradient * gap, 2 * kSlopeError + D * bounds.second * gap,
+    const std::array<double, 3> bound = {2 * kValueError + bounds.gradient * gap,
+                                         2 * kSlopeError + D * bounds.second * gap,
                                          2 * kHessianError + D * bounds.third * gap};
     for (int i = 0; i < settings.trials(6000, 600); ++i) {
         const std::uint64_t seed = random() % 1000;
@@ -181,7 +188,8 @@ std::vector<Row> continuity(const Settings& settings, Random& random, const std:
         const auto where = [&] { return place<D>(cell, below, seed); };
         jump[0].see(std::abs(static_cast<double>(left.value - right.value)) / bound[0], where);
         double squared = 0;
-        for (std::size_t a = 0; a < D; ++a) squared += std::pow(static_cast<double>(left.gradient[a] - right.gradient[a]), 2);
+        for (std::size_t a = 0; a < D; ++a)
+            squared += std::pow(static_cast<double>(left.gradient[a] - right.gradient[a]), 2);
         jump[1].see(std::sqrt(squared) / bound[1], where);
         for (std::size_t e = 0; e < left.hessian.size(); ++e) {
             jump[2].see(std::abs(static_cast<double>(left.hessian[e] - right.hessian[e])) / bound[2], where);
@@ -191,87 +199,29 @@ std::vector<Row> continuity(const Settings& settings, Random& random, const std:
         const Dual2<D> exact = oracle::oracle_jet<D>(key.axis, cell, {});
         double off = std::abs(static_cast<double>(right.value));
         for (std::size_t a = 0; a < D; ++a) {
-            off = std::max(off, static_cast<double>(std::abs(static_cast<long double>(right.gradient[a]) - exact.gradient[a])));
+            off = std::max(
+                off, static_cast<double>(std::abs(static_cast<long double>(right.gradient[a]) - exact.gradient[a])));
         }
         corner.see(off, where);
     }
     std::vector<Row> rows;
     constexpr std::array<const char*, 3> kNames = {"value", "gradient", "Hessian"};
     for (std::size_t i = 0; i < 3; ++i) {
-        rows.push_back({fmt::format("{} {}-D {}: jump across planes, edges, corners (C2)", target, D, kNames[i]), Kind::check,
-                        jump[i].value() * bound[i], bound[i], "absolute", jump[i].where(), {}});
+        rows.push_back({fmt::format("{} {}-D {}: jump across planes, edges, corners (C2)", target, D, kNames[i]),
+                        Kind::check,
+                        jump[i].value() * bound[i],
+                        bound[i],
+                        "absolute",
+                        jump[i].where(),
+                        {}});
     }
-    rows.push_back({fmt::format("{} {}-D value 0 and corner's own gradient in corners", target, D), Kind::check,
-                    corner.value(), 0.0, "absolute", corner.where(), {}});
-    return rows;
-}
-
-struct Sum {
-    const char* name;
-    noise::FbmParameters parameters;
-    double origin;  // each coordinate's size
-    float reach;    // of the float offsets
-};
-
-// Frequencies stay below 2^50 cells within reach, as scenes must.
-const std::array<Sum, 8> kSums = {{
-    {"32 octaves, gain 1/2, lacunarity 2", {.octaves = 32}, 1.0, 0x1p-9f},
-    {"32 octaves, gain 1, lacunarity 1", {.octaves = 32, .lacunarity = 1.0, .gain = 1.0}, 100.0, 1.0f},
-    {"32 octaves, gain 1, lacunarity 1.0001", {.octaves = 32, .lacunarity = 1.0001, .gain = 1.0}, 100.0, 1.0f},
-    {"32 octaves, gain 1, lacunarity 2", {.octaves = 32, .lacunarity = 2.0, .gain = 1.0}, 1.0, 0x1p-9f},
-    {"15 octaves, gain 1/2, lacunarity 10", {.octaves = 15, .lacunarity = 10.0}, 1.0, 1e-8f},
-    {"15 octaves, gain 1, lacunarity 10", {.octaves = 15, .lacunarity = 10.0, .gain = 1.0}, 1.0, 1e-8f},
-    {"32 octaves, gain 0", {.octaves = 32, .gain = 0.0}, 1.0, 0x1p-9f},
-    {"1 octave, 2^40 cells away", {.octaves = 1, .frequency = 1024.0}, 0x1p30, 1e-3f},
-}};
-
-// fbm_value's contract: the position is off by 2^-24 (3 |w offset| + 2) cells an axis, worth the gradient's bound a cell;
-// each octave errs by kValueError; each of 2 K + 1 roundings of the sum by 2^-24 of its amplitudes. The octave's position
-// at the origin is rounded to double by definition (2^-53 of its size, twice), as it is in the long double sum here.
-std::vector<Row> sums(const Settings& settings, Random& random, const std::string& target) {
-    std::vector<Row> rows;
-    for (const Sum& sum : kSums) {
-        const std::vector<noise::Octave> octaves = noise::make_octaves(sum.parameters);
-        Worst worst;
-        double largest = 0.0;
-        for (int i = 0; i < settings.trials(300, 30); ++i) {
-            std::uniform_real_distribution<double> unit(-1.0, 1.0);
-            std::array<double, 3> origin;
-            std::array<float, 3> offset;
-            for (std::size_t a = 0; a < 3; ++a) {
-                origin[a] = sum.origin * unit(random);
-                offset[a] = sum.reach * static_cast<float>(unit(random));
-            }
-            float found = 0.0f;
-            noise::fbm_value(octaves, origin, {std::span(&offset[0], 1), std::span(&offset[1], 1), std::span(&offset[2], 1)},
-                             std::span(&found, 1));
-            long double expected = 0.0L, amplitudes = 0.0L, bound = 0.0L;
-            for (const noise::Octave& octave : octaves) {
-                std::array<long double, 3> p;
-                long double shift = 0.0L;
-                for (std::size_t a = 0; a < 3; ++a) {
-                    const double at = octave.frequency * origin[a] + octave.offset[a];
-                    const long double step = static_cast<long double>(octave.frequency) * static_cast<long double>(offset[a]);
-                    p[a] = static_cast<long double>(at) + step;
-                    const long double axis = 0x1p-24L * (3 * std::abs(step) + 2);
-                    shift += axis * axis;
-                }
-                const long double amplitude = static_cast<long double>(octave.amplitude);
-                expected += amplitude * oracle::noise3<long double>(octave.key.axis, p[0], p[1], p[2]);
-                bound += amplitude * (static_cast<long double>(kValueError) +
-                                      static_cast<long double>(noise::kBounds3.gradient) * std::sqrt(shift));
-                amplitudes += amplitude * static_cast<long double>(noise::kBounds3.value);
-            }
-            bound += 0x1p-24L * static_cast<long double>(2 * octaves.size() + 1) * amplitudes;
-            largest = std::max(largest, static_cast<double>(bound));
-            worst.see(static_cast<double>(std::abs(static_cast<long double>(found) - expected) / bound), [&] {
-                return fmt::format("origin {:.17g} {:.17g} {:.17g}, offset {:.9g} {:.9g} {:.9g}", origin[0], origin[1],
-                                   origin[2], offset[0], offset[1], offset[2]);
-            });
-        }
-        rows.push_back({fmt::format("{} 3-D sum of {}", target, sum.name), Kind::check, worst.value() * largest, largest,
-                        "absolute", worst.where(), {}});
-    }
+    rows.push_back({fmt::format("{} {}-D value 0 and corner's own gradient in corners", target, D),
+                    Kind::check,
+                    corner.value(),
+                    0.0,
+                    "absolute",
+                    corner.where(),
+                    {}});
     return rows;
 }
 
@@ -312,26 +262,36 @@ std::vector<Row> zero_gradients(const Settings& settings, Random& random, const 
         for (const long double g : at.gradient) size += g * g;
         const Jet<D> jet = evaluate<D>(key, cell, offset);
         const auto where = [&] { return place<D>(cell, offset, seed); };
-        directional.see(std::abs(static_cast<double>(
-                            static_cast<long double>(jet.gradient[0]) * at.gradient[1] -
-                            static_cast<long double>(jet.gradient[1]) * at.gradient[0])) /
+        directional.see(std::abs(static_cast<double>(static_cast<long double>(jet.gradient[0]) * at.gradient[1] -
+                                                     static_cast<long double>(jet.gradient[1]) * at.gradient[0])) /
                             std::max(1e-30, static_cast<double>(std::hypot(at.gradient[0], at.gradient[1]))),
                         where);
         if (std::sqrt(size) > 1e-5L) continue;
         ++found;
         slope.see(errors<D>(jet, at).slope, where);
     }
-    return {{fmt::format("{} {}-D gradient where it vanishes", target, D), Kind::check, slope.value(), kSlopeError,
-             "absolute", fmt::format("{} critical points; {}", found, slope.where()), {}},
-            {fmt::format("{} {}-D slope along directions across the gradient", target, D), Kind::check, directional.value(),
-             kSlopeError, "absolute", directional.where(), {}}};
+    return {{fmt::format("{} {}-D gradient where it vanishes", target, D),
+             Kind::check,
+             slope.value(),
+             kSlopeError,
+             "absolute",
+             fmt::format("{} critical points; {}", found, slope.where()),
+             {}},
+            {fmt::format("{} {}-D slope along directions across the gradient", target, D),
+             Kind::check,
+             directional.value(),
+             kSlopeError,
+             "absolute",
+             directional.where(),
+             {}}};
 }
 
 }  // namespace
 
 void add_noise_cases(std::vector<Case>& cases) {
     for (const std::string& target : noise::simd_targets()) {
-        const auto add = [&](const std::string& name, std::vector<Row> (*run)(const Settings&, Random&, const std::string&)) {
+        const auto add = [&](const std::string& name,
+                             std::vector<Row> (*run)(const Settings&, Random&, const std::string&)) {
             cases.push_back({"noise", target + " " + name,
                              [=](const Settings& s, Random& r) { return run(s, r, target); }, target});
         };
@@ -339,7 +299,6 @@ void add_noise_cases(std::vector<Case>& cases) {
         add("3-D", against_long_double<3>);
         add("2-D continuity", continuity<2>);
         add("3-D continuity", continuity<3>);
-        add("sums", sums);
         add("2-D zero gradients", zero_gradients<2>);
         add("3-D zero gradients", zero_gradients<3>);
     }

@@ -84,7 +84,8 @@ std::vector<Row> truncated_powers(const Settings& settings, Random&) {
             const long double exact = oracle::exact_spline(m, x < 0.5 * m ? x : m - x).pdf;
             const auto where = [&] { return fmt::format("m = {}, x = {:.17g}", m, x); };
             in_float.see(relative_error(static_cast<long double>(truncated_power_density<float>(m, x)), exact), where);
-            in_double.see(relative_error(static_cast<long double>(truncated_power_density<double>(m, x)), exact), where);
+            in_double.see(relative_error(static_cast<long double>(truncated_power_density<double>(m, x)), exact),
+                          where);
             triangle.see(relative_error(static_cast<long double>(filter::bspline_pdf(m, x)), exact), where);
         }
         const auto first = [&](int& order, const Worst& worst, double limit) {
@@ -96,22 +97,30 @@ std::vector<Row> truncated_powers(const Settings& settings, Random&) {
         first(lost_double, in_double, 1.0);
     }
     const auto row = [&](const char* name, int order) {
-        return Row{name, Kind::information, static_cast<double>(order), 0.0, "order m", "at x = m i / 16, i = 1..15", {}};
+        return Row{name, Kind::information, static_cast<double>(order), 0.0, "order m", "at x = m i / 16, i = 1..15",
+                   {}};
     };
     return {row("truncated powers in float: 1 % off from", percent_float),
             row("truncated powers in float: no digit left from", lost_float),
             row("truncated powers in double: 1 % off from", percent_double),
             row("truncated powers in double: no digit left from", lost_double),
-            {"the triangle at the same points, m = 2..100", Kind::check, triangle.value(), 16 * 0x1p-52, "relative",
-             triangle.where(), {}}};
+            {"the triangle at the same points, m = 2..100",
+             Kind::check,
+             triangle.value(),
+             16 * 0x1p-52,
+             "relative",
+             triangle.where(),
+             {}}};
 }
 
 }  // namespace
 
 void add_paper_cases(std::vector<Case>& cases) {
     for (const int m : {2, 3, 4, 8, 15, 20, 50, 100}) {
-        cases.push_back({"bspline", fmt::format("the paper's Newton, m = {}", m),
-                         [=](const Settings& s, Random& r) { return newton(m, s, r); }, {}});
+        cases.push_back({"bspline",
+                         fmt::format("the paper's Newton, m = {}", m),
+                         [=](const Settings& s, Random& r) { return newton(m, s, r); },
+                         {}});
     }
     cases.push_back({"bspline", "truncated powers", truncated_powers, {}});
 }

@@ -21,8 +21,8 @@ oracle::Vec as_vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
-RayJury::RayJury(const SceneSpec& spec, const Settings& settings)
-    : spec_(spec), scene_(spec.scene()), settings_(settings), image_(scene_, render::Tracer::fast) {}
+RayJury::RayJury(const SceneSpec& spec, const Settings& settings, std::uint32_t step_limit)
+    : spec_(spec), scene_(spec.scene()), settings_(settings), image_(scene_, render::Tracer::fast, step_limit) {}
 
 trace::Ray RayJury::local(const WorldRay& ray) const {
     const trace::Placement& placement = image_.placement();
@@ -41,15 +41,15 @@ std::vector<trace::Hit> RayJury::trace(std::span<const trace::Ray> rays) const {
 
 std::string RayJury::replay(const WorldRay& ray) const {
     if (ray.pixel) return spec_.command("probe ray", fmt::format("--pixel {},{}", ray.pixel->x, ray.pixel->y));
-    return fmt::format("echo {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} | ", ray.origin.x, ray.origin.y, ray.origin.z,
-                       ray.direction.x, ray.direction.y, ray.direction.z) +
+    return fmt::format("echo {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} | ", ray.origin.x, ray.origin.y,
+                       ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z) +
            spec_.command("probe ray");
 }
 
 // What double arithmetic leaves open of f at a point up to `size` from the origin, for tracer and oracle alike, with
 // u = 2^-53: positions are rounded by 3 u of their size along the ray and 2 u on the way to lattice cells, each worth
-// L; |x| - R by 4 u of |x|; K octaves by 40 u of their amplitude each (a few ulp of eight corners) and K + 1 of the sum.
-// Twice that, since both sides err: less than 2^-49 times the sizes.
+// L; |x| - R by 4 u of |x|; K octaves by 40 u of their amplitude each (a few ulp of eight corners) and K + 1 of the
+// sum. Twice that, since both sides err: less than 2^-49 times the sizes.
 double RayJury::rounding(double size) const {
     const trace::Field& f = image_.field();
     const double radius = f.kind() == scene::SurfaceKind::planet ? f.surface().radius : 0.0;
@@ -71,6 +71,11 @@ void RayJury::judge_claim(const trace::Ray& ray, const trace::Hit& hit, double d
     ++rays_;
     steps_ += hit.steps;
     most_steps_.see(hit.steps, describe);
+    if (hit.state == trace::HitState::unresolved) {
+        ++unresolved_;
+        violation_ = "unresolved: " + describe();
+        return;
+    }
     const bool is_hit = hit.state == trace::HitState::hit;
     hits_ += is_hit;
     const auto delta = [&](double s) { return ray.delta0 + ray.delta_slope * s; };
@@ -91,8 +96,8 @@ void RayJury::judge_claim(const trace::Ray& ray, const trace::Hit& hit, double d
         shape.lift = -open;
         const oracle::FieldOracle lowered(shape);
         const auto f = [&](double s) {
-            return lowered.probe({origin[0] + s * direction[0], origin[1] + s * direction[1], origin[2] + s * direction[2]},
-                                 direction);
+            return lowered.probe(
+                {origin[0] + s * direction[0], origin[1] + s * direction[1], origin[2] + s * direction[2]}, direction);
         };
         oracle::Span span = oracle::clip(shape, origin, direction, ray.limit);
         // Where a ray grazes the bounding body, the entry is as uncertain as the square root of rounding.
@@ -101,27 +106,36 @@ void RayJury::judge_claim(const trace::Ray& ray, const trace::Hit& hit, double d
         unfounded = founded.unfounded;
         undecided_ += founded.undecided;
     }
-    const bool unresolved = hit.state == trace::HitState::unresolved;
-    if (!passed.missed && !unfounded && !unresolved) return;
+    if (!passed.missed && !unfounded) return;
     ++violations_;
-    violation_ = (unresolved ? std::string("unresolved: ")
-                  : unfounded ? fmt::format("f > 0 within {:.3g} of the hit at {:.17g}: ", delta(hit.s), hit.s)
-                              : fmt::format("passed over [{:.17g}, {:.17g}], {:.3g} of delta: ", passed.stretch.begin,
-                                            passed.stretch.end, passed.thickest)) +
+    violation_ = (unfounded ? fmt::format("f > 0 within {:.3g} of the hit at {:.17g}: ", delta(hit.s), hit.s)
+                            : fmt::format("passed over [{:.17g}, {:.17g}], {:.3g} of delta: ", passed.stretch.begin,
+                                          passed.stretch.end, passed.thickest)) +
                  describe();
 }
 
 std::vector<Row> RayJury::rows(const std::string& name) const {
     const double rays = std::max(1.0, static_cast<double>(rays_));
-    const std::string counts =
-        fmt::format("{} rays, {} hits; thickest stretch passed over {:.2g} delta; {} undecided, {} judged in part", rays_,
-                    hits_, thickest_, undecided_, cut_short_);
+    const std::string counts = fmt::format(
+        "{} rays, {} hits, {} unresolved; thickest stretch passed over {:.2g} delta; {} undecided, {} judged in part",
+        rays_, hits_, unresolved_, thickest_, undecided_, cut_short_);
     // A family without rays or hits has shown nothing.
-    const double broken = hits_ > 0 ? static_cast<double>(violations_) : std::numeric_limits<double>::quiet_NaN();
-    return {{name + ": broken promises", Kind::check, broken, 0.0, "rays",
-             violation_.empty() ? counts : violation_ + "; " + counts, {}},
-            {name + ": most steps of a ray", Kind::information, most_steps_.value(), 0.0, "steps",
-             fmt::format("mean {:.1f}; {}", steps_ / rays, most_steps_.where()), {}}};
+    const double broken =
+        hits_ > 0 ? static_cast<double>(violations_ + unresolved_) : std::numeric_limits<double>::quiet_NaN();
+    return {{name + ": broken promises, unresolved",
+             Kind::check,
+             broken,
+             0.0,
+             "rays",
+             violation_.empty() ? counts : violation_ + "; " + counts,
+             {}},
+            {name + ": most steps of a ray",
+             Kind::information,
+             most_steps_.value(),
+             0.0,
+             "steps",
+             fmt::format("mean {:.1f}; {}", steps_ / rays, most_steps_.where()),
+             {}}};
 }
 
 }  // namespace strata::tools::stability

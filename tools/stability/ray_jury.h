@@ -1,5 +1,6 @@
 // Traces rays of a scene and has an oracle that shares no code with the tracers judge each by the two promises of
-// README.md: nothing thicker than delta is passed over, and within delta of a reported hit there is a point with f <= 0.
+// README.md: nothing thicker than delta is passed over, and within delta of a reported hit there is a point with f <=
+// 0.
 #pragma once
 
 #include <functional>
@@ -22,7 +23,8 @@ struct WorldRay {
 
 class RayJury {
   public:
-    RayJury(const SceneSpec& spec, const Settings& settings);
+    // Rays are given up after step_limit steps.
+    RayJury(const SceneSpec& spec, const Settings& settings, std::uint32_t step_limit = trace::kStepLimit);
 
     const scene::Scene& scene() const { return scene_; }
     const render::SurfaceImage& image() const { return image_; }
@@ -40,6 +42,14 @@ class RayJury {
     void judge_claim(const trace::Ray& ray, const trace::Hit& hit, double displaced,
                      const std::function<std::string()>& describe);
 
+    // Judged so far; of these hits, given up, and against a promise; the last such.
+    long judged() const { return rays_; }
+    long hits() const { return hits_; }
+    long unresolved() const { return unresolved_; }
+    long violations() const { return violations_; }
+    long judged_in_part() const { return cut_short_; }
+    const std::string& violation() const { return violation_; }
+
     // A bound of what rounding leaves open of f up to `size` from the surface's origin.
     double rounding(double size) const;
 
@@ -54,7 +64,7 @@ class RayJury {
     scene::Scene scene_;
     Settings settings_;
     render::SurfaceImage image_;
-    long rays_ = 0, hits_ = 0, violations_ = 0, undecided_ = 0, cut_short_ = 0;
+    long rays_ = 0, hits_ = 0, unresolved_ = 0, violations_ = 0, undecided_ = 0, cut_short_ = 0;
     double thickest_ = 0.0, steps_ = 0.0;
     Worst most_steps_;
     std::string violation_;

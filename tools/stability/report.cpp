@@ -60,7 +60,8 @@ std::string text_table(const std::vector<Row>& rows) {
 
 std::string markdown_table(const std::vector<Row>& rows, const Heading& heading) {
     std::string text = fmt::format(
-        "# Numerical stability\n\n`strata stability{}{}`, strata {}, SIMD targets {}: {}.\n\nA bound is derived from the "
+        "# Numerical stability\n\n`strata stability{}{}`, strata {}, SIMD targets {}: {}.\n\nA bound is derived from "
+        "the "
         "arithmetic or a stated contract, beside the case in `tools/stability/`. Rows without one document the paper's "
         "method, or how often a limit is met.\n",
         heading.fast ? " --fast" : "", heading.seed == 1 ? "" : fmt::format(" --seed {}", heading.seed), STRATA_VERSION,
@@ -68,8 +69,9 @@ std::string markdown_table(const std::vector<Row>& rows, const Heading& heading)
     std::string group;
     for (const Row& row : rows) {
         if (row.group != group) {
-            text += fmt::format("\n## {}\n\n| case | measured | bound | unit | | worst input |\n|---|---|---|---|---|---|\n",
-                                row.group);
+            text += fmt::format(
+                "\n## {}\n\n| case | measured | bound | unit | | worst input |\n|---|---|---|---|---|---|\n",
+                row.group);
         }
         group = row.group;
         text += fmt::format("| {} | {:.3g} | {} | {} | {} | {} |\n", cell(row.name), row.measured, bound_text(row),

@@ -18,11 +18,13 @@ struct Group {
 };
 
 const std::vector<Group>& all_groups() {
-    static const std::vector<Group> table = {
-        {"bspline", {add_bspline_cases, add_paper_cases}}, {"noise", {add_noise_cases}},
-        {"tracing", {add_tracing_cases}},                  {"shadow", {add_shadow_cases}},
-        {"invariance", {add_invariance_cases}},            {"sums", {add_sum_cases}},
-        {"motion", {add_motion_cases}}};
+    static const std::vector<Group> table = {{"bspline", {add_bspline_cases, add_paper_cases}},
+                                             {"noise", {add_noise_cases, add_noise_sum_cases}},
+                                             {"tracing", {add_random_scene_cases, add_tracing_cases}},
+                                             {"shadow", {add_shadow_cases}},
+                                             {"invariance", {add_invariance_cases}},
+                                             {"sums", {add_sum_cases}},
+                                             {"motion", {add_motion_cases}}};
     return table;
 }
 

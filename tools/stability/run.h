@@ -20,6 +20,7 @@ using OnCase = std::function<void(std::size_t done, std::size_t total, const Cas
 
 // The rows in the order of the cases, whatever the threads (0: as many as the machine has). When cancelled, those of
 // the cases that were finished.
-std::vector<Row> run_cases(const std::vector<Case>& cases, const Settings& settings, int threads, const OnCase& on_case);
+std::vector<Row> run_cases(const std::vector<Case>& cases, const Settings& settings, int threads,
+                           const OnCase& on_case);
 
 }  // namespace strata::tools::stability

@@ -88,9 +88,10 @@ class ShadowOracle {
     oracle::FieldOracle field_;
 };
 
-// From the exact root, from delta before it, and from where the renderer leaves: where all agree, delta does not decide.
-// Against the promises (README.md) from the renderer's own start a decision that differs then is impossible: a stretch
-// longer than delta may not be passed over, and what is said to block the light must be there. So the bound is 0.
+// From the exact root, from delta before it, and from where the renderer leaves: where all agree, delta does not
+// decide. Against the promises (README.md) from the renderer's own start a decision that differs then is impossible: a
+// stretch longer than delta may not be passed over, and what is said to block the light must be there. So the bound is
+// 0.
 std::vector<Row> self_shadow(const SceneSpec& spec, const std::string& name, const Settings& settings, Random& random) {
     RayJury jury(spec, settings);
     const ShadowOracle truth(jury.scene().surface);
@@ -119,13 +120,28 @@ std::vector<Row> self_shadow(const SceneSpec& spec, const std::string& name, con
     const double n = std::max(1, points);
     std::vector<Row> rows = jury.rows(name + ", shadow rays");
     const std::string counts = fmt::format("{} points that face the sun, {} in shadow", points, shadowed);
-    rows.push_back({name + ": acne where delta does not decide", Kind::check, acne.value(), 0.0, "points",
-                    counts + "; " + acne.where(), {}});
-    rows.push_back({name + ": light leaks where delta does not decide", Kind::check, leak.value(), 0.0, "points",
-                    counts + "; " + leak.where(), {}});
+    rows.push_back({name + ": acne where delta does not decide",
+                    Kind::check,
+                    acne.value(),
+                    0.0,
+                    "points",
+                    counts + "; " + acne.where(),
+                    {}});
+    rows.push_back({name + ": light leaks where delta does not decide",
+                    Kind::check,
+                    leak.value(),
+                    0.0,
+                    "points",
+                    counts + "; " + leak.where(),
+                    {}});
     rows.push_back({name + ": delta decides", Kind::information, 100.0 * within / n, 0.0, "% of points", counts, {}});
-    rows.push_back({name + ": differs from the exact point's light", Kind::information, 100.0 * differs / n, 0.0,
-                    "% of points", counts, {}});
+    rows.push_back({name + ": differs from the exact point's light",
+                    Kind::information,
+                    100.0 * differs / n,
+                    0.0,
+                    "% of points",
+                    counts,
+                    {}});
     return rows;
 }
 
@@ -148,8 +164,13 @@ std::vector<Row> smooth(const SceneSpec& spec, const std::string& name, const Se
         if (shadowed) worst.see(1.0, [&] { return jury.replay(d.pixel); });
     }
     const double measured = points > 0 ? static_cast<double>(false_shadows) : std::nan("");
-    return {{name + ": in shadow though they face the sun", Kind::check, measured, 0.0, "points",
-             fmt::format("{} points; {}", points, worst.where()), {}}};
+    return {{name + ": in shadow though they face the sun",
+             Kind::check,
+             measured,
+             0.0,
+             "points",
+             fmt::format("{} points; {}", points, worst.where()),
+             {}}};
 }
 
 SceneSpec spec_of(const std::string& name, std::vector<std::string> sets) {
@@ -168,17 +189,25 @@ void add_shadow_cases(std::vector<Case>& cases) {
     add("hyperterrain", spec_of("hyperterrain", {}), self_shadow);
     add("planet", spec_of("planet", {}), self_shadow);
     add("isosurface", spec_of("isosurface", {}), self_shadow);
-    const std::vector<std::string> earth = {"surface.radius=6.371e6", "surface.frequency=1e-5", "surface.octaves=18",
-                                            "surface.amplitude=3000", "camera.far=1e8",
-                                            "camera.look_at=[0,5.9e6,2e6]", "camera.position=[0,6.771e6,0]",
-                                            "sun.direction=[1,-0.2,-0.3]"};
+    const std::vector<std::string> earth = {"surface.radius=6.371e6",
+                                            "surface.frequency=1e-5",
+                                            "surface.octaves=18",
+                                            "surface.amplitude=3000",
+                                            "camera.far=1e8",
+                                            "camera.look_at=[0,5.9e6,2e6]",
+                                            "camera.position=[0,6.771e6,0]",
+                                            "sun.direction=[1,0.05,0.1]"};
     add("Earth from orbit", spec_of("planet", earth), self_shadow);
     add("plane, grazing sun", spec_of("terrain", {"surface.amplitude=0", "sun.direction=[1,1e-9,0]"}), smooth);
-    add("plane seen from 1e8", spec_of("terrain", {"surface.amplitude=0", "camera.position=[0,1e8,0]", "camera.look_at=[1e8,0,1e8]", "camera.far=1e12", "sun.direction=[1,1e-6,0]"}), smooth);
+    add("plane seen from 1e8",
+        spec_of("terrain", {"surface.amplitude=0", "camera.position=[0,1e8,0]", "camera.look_at=[1e8,0,1e8]",
+                            "camera.far=1e12", "sun.direction=[1,1e-6,0]"}),
+        smooth);
     std::vector<std::string> ball = earth;
     ball.emplace_back("surface.amplitude=0");
     add("Earth without relief from orbit", spec_of("planet", ball), smooth);
-    ball.insert(ball.end(), {"camera.position=[0,6371002,0]", "camera.look_at=[0,6371001,100]", "sun.direction=[1,1e-4,0]"});
+    ball.insert(ball.end(),
+                {"camera.position=[0,6371002,0]", "camera.look_at=[0,6371001,100]", "sun.direction=[1,1e-4,0]"});
     add("Earth without relief from 2 m", spec_of("planet", ball), smooth);
 }
 

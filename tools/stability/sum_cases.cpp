@@ -41,8 +41,8 @@ class Speckle final : public render::ImageFunction {
     std::uint64_t threshold_;
 };
 
-// The film is float: 2^-24 of a pixel for its one rounding. Before it each of n products and sums of positive numbers in
-// double adds 2^-53 at most; the weights of both sides, whose sum divides, twice that.
+// The film is float: 2^-24 of a pixel for its one rounding. Before it each of n products and sums of positive numbers
+// in double adds 2^-53 at most; the weights of both sides, whose sum divides, twice that.
 std::vector<Row> mixed(EstimatorKind kind, const std::string& name, const Settings& settings, Random&) {
     const int pixels = settings.trials(6, 2);
     render::EstimatorSettings estimator_settings;
@@ -65,7 +65,9 @@ std::vector<Row> mixed(EstimatorKind kind, const std::string& name, const Settin
                     naive += static_cast<float>(s.weight) * radiance;
                 }
                 bound = 0x1p-24 + 6.0 * static_cast<double>(samples.size()) * 0x1p-53;
-                const auto where = [&] { return fmt::format("share {:.3g} bright, pixel {},{}, {} samples", share, x, y, samples.size()); };
+                const auto where = [&] {
+                    return fmt::format("share {:.3g} bright, pixel {},{}, {} samples", share, x, y, samples.size());
+                };
                 const auto error = [&](float found) {
                     return static_cast<double>(std::abs(static_cast<long double>(found) / sum - 1.0L));
                 };
@@ -74,8 +76,20 @@ std::vector<Row> mixed(EstimatorKind kind, const std::string& name, const Settin
             }
         }
     }
-    return {{name + ", N = 64, radiance 1e6 and 1e-6 mixed", Kind::check, in_film.value(), bound, "relative", in_film.where(), {}},
-            {name + ", N = 64: a film that added up in float", Kind::information, in_float.value(), 0.0, "relative", in_float.where(), {}}};
+    return {{name + ", N = 64, radiance 1e6 and 1e-6 mixed",
+             Kind::check,
+             in_film.value(),
+             bound,
+             "relative",
+             in_film.where(),
+             {}},
+            {name + ", N = 64: a film that added up in float",
+             Kind::information,
+             in_float.value(),
+             0.0,
+             "relative",
+             in_float.where(),
+             {}}};
 }
 
 class Constant final : public render::ImageFunction {
@@ -89,8 +103,8 @@ class Constant final : public render::ImageFunction {
     float radiance_;
 };
 
-// A mean of equal numbers: off by at most the roundings of the sum in double, far below half a float's step, so that the
-// rounding to float gives the number back. Unless its weights sum to nothing that a double can hold.
+// A mean of equal numbers: off by at most the roundings of the sum in double, far below half a float's step, so that
+// the rounding to float gives the number back. Unless its weights sum to nothing that a double can hold.
 std::vector<Row> constant(const Settings& settings, Random&) {
     Worst worst;
     for (std::size_t kind = 0; kind < scene::kEnumNames<EstimatorKind>.size(); ++kind) {
@@ -103,24 +117,33 @@ std::vector<Row> constant(const Settings& settings, Random&) {
                 chosen.m = m;
                 const render::Estimator estimator(chosen);
                 for (const float radiance : {kBright, kDim, 1.0f / 3.0f}) {
-                    const render::RenderResult result = render::render(Constant(radiance), estimator, {0, 0, 3, 2}, one_thread());
+                    const render::RenderResult result =
+                        render::render(Constant(radiance), estimator, {0, 0, 3, 2}, one_thread());
                     for (const glm::vec3& pixel : result.film.pixels()) {
                         worst.see(static_cast<double>(std::abs(pixel.g / radiance - 1.0f)), [&] {
-                            return fmt::format("{}, N = {}, m = {}, radiance {:.9g}: {:.9g}", scene::kEnumNames<EstimatorKind>[kind], N, m, radiance, pixel.g);
+                            return fmt::format("{}, N = {}, m = {}, radiance {:.9g}: {:.9g}",
+                                               scene::kEnumNames<EstimatorKind>[kind], N, m, radiance, pixel.g);
                         });
                     }
                 }
             }
         }
     }
-    return {{"a constant picture, every estimator, m = 1..100, N = 1..64", Kind::check, worst.value(), 0.0, "relative", worst.where(), {}}};
+    return {{"a constant picture, every estimator, m = 1..100, N = 1..64",
+             Kind::check,
+             worst.value(),
+             0.0,
+             "relative",
+             worst.where(),
+             {}}};
 }
 
 }  // namespace
 
 void add_sum_cases(std::vector<Case>& cases) {
-    for (const auto& [kind, name] : {std::pair{EstimatorKind::stratified, "stratified"}, std::pair{EstimatorKind::uniform, "uniform"},
-                                     std::pair{EstimatorKind::jittered, "jittered"}, std::pair{EstimatorKind::shared, "shared"}}) {
+    for (const auto& [kind, name] :
+         {std::pair{EstimatorKind::stratified, "stratified"}, std::pair{EstimatorKind::uniform, "uniform"},
+          std::pair{EstimatorKind::jittered, "jittered"}, std::pair{EstimatorKind::shared, "shared"}}) {
         cases.push_back({"sums", name, [=](const Settings& s, Random& r) { return mixed(kind, name, s, r); }, {}});
     }
     cases.push_back({"sums", "constant", constant, {}});

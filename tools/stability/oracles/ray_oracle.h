@@ -50,13 +50,14 @@ class RayJudge {
     // it is within delta of a point with f <= 0 inside.
     Verdict judge(const Span& span, const Claim& claim) {
         verdict_ = {};
+        shortest_step_ = kShortestStep * std::min(1.0, span.end);
         if (span.begin <= span.end) find_missed({span.begin, claim.hit ? std::min(span.end, claim.t) : span.end});
         if (claim.hit) find_support(span, claim.t);
         return verdict_;
     }
 
   private:
-    // Steps do not get shorter than this, where delta vanishes at the origin.
+    // Of the ray's length, if that is below 1: the walk's steps do not get shorter, where delta vanishes at the origin.
     static constexpr double kShortestStep = 1e-11;
     static constexpr int kMaxHalvings = 40;
     static constexpr long kMaxSupportProbes = 200000;
@@ -65,8 +66,6 @@ class RayJudge {
         ++verdict_.probes;
         return f_(t);
     }
-
-    static double step(const Probe& here, double at_least) { return std::max({here.clear, at_least, kShortestStep}); }
 
     // The root between an outside and an inside point, as the innermost point known to have f < 0.
     double bisect(double outside, double inside) {
@@ -85,7 +84,7 @@ class RayJudge {
         Probe here = probe(t);
         if (here.f < 0.0) is_inside = true, inside_since = t;
         while (t < range.end && !verdict_.missed) {
-            const double next = std::min(range.end, t + step(here, delta_(t) / 4.0));
+            const double next = std::min(range.end, t + std::max({here.clear, delta_(t) / 4.0, shortest_step_}));
             if (next == t) break;
             if (verdict_.probes > most_probes_) {
                 verdict_.cut_short = true;
@@ -115,7 +114,8 @@ class RayJudge {
         Span part{stretch.begin, stretch.begin};
         while (part.end < stretch.end && part.end - part.begin <= limit && verdict_.probes <= most_probes_) {
             const Probe here = probe(part.end);
-            part.end = std::min(stretch.end, part.end + step(here, limit / 1024.0));
+            const double least = limit > 0.0 ? limit / 1024.0 : shortest_step_;
+            part.end = std::min(stretch.end, part.end + std::max(here.clear, least));
             if (!(here.f < 0.0)) part.begin = part.end;
         }
         if (part.end - part.begin <= limit) return;
@@ -159,6 +159,7 @@ class RayJudge {
     long most_probes_;
     Verdict verdict_;
     long last_probe_ = 0;
+    double shortest_step_ = kShortestStep;
 };
 
 template <class RayFunction, class Delta>
