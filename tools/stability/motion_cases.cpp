@@ -127,6 +127,39 @@ std::vector<Row> distribution(const Settings& settings, Random& random) {
              {}}};
 }
 
+// The same draws late in a film: a time is t_k and s/2 and s (x - l/2) added up in double, three roundings of its size.
+std::vector<Row> late_frames(const Settings&, Random&) {
+    Worst worst;
+    double bound = 0.0;
+    for (const double t : {1e6 / 25.0, 1e9 / 25.0, 1e9 / 1e-3}) {
+        render::EstimatorSettings early, late;
+        early.N = late.N = 16;
+        early.shutter = {0.0, 0.033};
+        late.shutter = {t, 0.033};
+        const auto near = render::Estimator(early).probe_samples(3, 4),
+                   far = render::Estimator(late).probe_samples(3, 4);
+        for (std::size_t i = 0; i < near.size(); ++i) {
+            worst.see(std::abs(far[i].time_s - t - near[i].time_s) / (3.0 * 0x1p-53 * t),
+                      [&] { return fmt::format("frame at {:.6g} s, sample {}", t, i); });
+        }
+        bound = 3.0 * 0x1p-53 * t;
+    }
+    return {{"late frames: sample times, share of three roundings",
+             Kind::check,
+             worst.value(),
+             1.0,
+             "of bound",
+             worst.where(),
+             {}},
+            {"late frames: what a time can tell apart at 1e12 s, the latest",
+             Kind::information,
+             bound,
+             0.0,
+             "s",
+             "frame 10^9 at 0.001 frames/s",
+             {}}};
+}
+
 // A square column, solid, that turns once about its axis while the shutter is open, seen by level rays: at distance d
 // from the axis it is met where a (|cos| + |sin|) >= d, which is always for d <= a and for a share
 // acos(d / (a sqrt 2)) / (pi / 4) of the turn up to d = a sqrt 2.
@@ -136,10 +169,11 @@ double column_cover(double distance, double half_side) {
     return cosine >= 1.0 ? 0.0 : std::acos(cosine) / (0.25 * std::numbers::pi);
 }
 
-// The mean of a row of pixels: each of n samples a pixel sees the column with the cover of its own ray as probability,
-// its time being uniform in the turn. Strata of time and their permutation keep the variance of a pixel below
-// n / (n - 1) times that of n free draws; six standard deviations are met by chance once in 5e8.
-std::vector<Row> whole_turn(const Settings& settings, Random& random) {
+// Each pixel of a row: each of n samples a pixel sees the column with the cover of its own ray as probability,
+// its time being uniform in the turn, in strata of space across the pixel. Strata of time and their permutation keep
+// the variance of a pixel below n / (n - 1) times that of n free draws; six standard deviations are met by chance once
+// in 5e8.
+std::vector<Row> whole_turn(int frame, const Settings& settings, Random& random) {
     const int width = 48;
     const SceneSpec spec{"isosurface",
                          {fmt::format("film.width={}", width),
@@ -161,7 +195,7 @@ std::vector<Row> whole_turn(const Settings& settings, Random& random) {
                           "surface.spin_deg_per_s=9000",
                           "shutter.fps=25",
                           "shutter.open_s=0.04",
-                          "shutter.frame=3",
+                          fmt::format("shutter.frame={}", frame),
                           fmt::format("sampling.N={}", settings.fast ? 8 : 24),
                           "sampling.m=1",
                           fmt::format("sampling.seed={}", random() >> 2)}};
@@ -171,23 +205,19 @@ std::vector<Row> whole_turn(const Settings& settings, Random& random) {
     const double pixel = 2.0 * std::tan(0.5 * scene.camera.fov_deg / 180.0 * std::numbers::pi) / width;
     Worst worst;
     for (int x = 0; x < width; ++x) {
-        double cover = 0.0, variance = 0.0;
+        double cover = 0.0;
         constexpr int kPoints = 2000;
         for (int i = 0; i < kPoints; ++i) {
             const double tangent = std::abs((x + (i + 0.5) / kPoints - 0.5 * width) * pixel);
-            const double p = column_cover(6.0 * tangent / std::sqrt(1.0 + tangent * tangent), 1.0);
-            cover += p / kPoints;
-            variance += p * (1.0 - p) / kPoints;
+            cover += column_cover(6.0 * tangent / std::sqrt(1.0 + tangent * tangent), 1.0) / kPoints;
         }
-        // A pixel's cover varies across it as well, which strata of space only lessen.
-        const double spread = variance + std::max(0.0, cover * (1.0 - cover) - variance);
-        const double bound = 6.0 * std::sqrt(spread / (n - 1.0)) + 1e-6;
+        const double bound = 6.0 * std::sqrt(cover * (1.0 - cover) / (n - 1.0)) + 1e-6;
         worst.see(std::abs(1.0 - static_cast<double>(film.at(x, 0).r) - cover) / bound, [&] {
             return fmt::format("pixel {}: cover {:.6f} for {:.6f}", x, 1.0 - static_cast<double>(film.at(x, 0).r),
                                cover);
         });
     }
-    return {{"one full turn in a frame: the column's cover, share of six sigma",
+    return {{fmt::format("one full turn in frame {}: the column's cover, share of six sigma", frame),
              Kind::check,
              worst.value(),
              1.0,
@@ -242,7 +272,13 @@ std::vector<Row> even_disc(const Settings& settings, Random& random) {
 void add_motion_cases(std::vector<Case>& cases) {
     cases.push_back({"motion", "shutter 0", instant, {}});
     cases.push_back({"motion", "orders", distribution, {}});
-    cases.push_back({"motion", "whole turn of a column", whole_turn, {}});
+    cases.push_back({"motion", "late frames", late_frames, {}});
+    for (const int frame : {3, 1000000}) {
+        cases.push_back({"motion",
+                         fmt::format("whole turn of a column, frame {}", frame),
+                         [=](const Settings& s, Random& r) { return whole_turn(frame, s, r); },
+                         {}});
+    }
     cases.push_back({"motion", "whole turn of the wheel", even_disc, {}});
 }
 
