@@ -24,12 +24,13 @@ oracle::Vec as_vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 RayJury::RayJury(const SceneSpec& spec, const Settings& settings, std::uint32_t step_limit)
     : spec_(spec), scene_(spec.scene()), settings_(settings), image_(scene_, render::Tracer::fast, step_limit) {}
 
+double RayJury::time() const { return render::estimator_settings(scene_).shutter.middle_s(); }
+
 trace::Ray RayJury::local(const WorldRay& ray) const {
-    const trace::Placement& placement = image_.placement();
-    const glm::dmat3 orientation = placement.orientation(render::estimator_settings(scene_).shutter.middle_s());
-    const trace::Ray world = ray.pixel ? image_.camera_ray(ray.pixel->x + 0.5, ray.pixel->y + 0.5)
-                                       : image_.world_ray(ray.origin, ray.direction);
-    return placement.to_local(orientation, world);
+    const double t = time();
+    const trace::Ray world = ray.pixel ? image_.camera_ray(ray.pixel->x + 0.5, ray.pixel->y + 0.5, t)
+                                       : image_.world_ray(ray.origin, ray.direction, t);
+    return image_.to_local(image_.placement().orientation(t), world, t);
 }
 
 std::vector<trace::Hit> RayJury::trace(std::span<const trace::Ray> rays) const {
@@ -82,10 +83,11 @@ void RayJury::judge_claim(const trace::Ray& ray, const trace::Hit& hit, double d
     const oracle::Vec origin = as_vec(ray.origin), direction = as_vec(ray.direction);
     const trace::Interval inside = image_.field().clip(ray.origin, ray.direction, ray.limit);
     const double farthest = is_hit ? hit.s : std::min(ray.limit, std::max(inside.end, 0.0));
-    const double open = rounding(glm::length(ray.origin) + farthest) + field().lipschitz() * displaced;
+    const double open =
+        rounding(glm::length(ray.origin) + farthest + glm::length(ray.noise_shift)) + field().lipschitz() * displaced;
 
     // (i) counts stretches with f below the rounding, (ii) asks for a point with f no higher than it.
-    oracle::Shape shape = oracle::shape_of(scene_.surface);
+    oracle::Shape shape = oracle::shape_of(scene_.surface, time());
     shape.lift = open;
     const oracle::Verdict passed =
         judge_ray(oracle::FieldOracle(shape), origin, direction, ray.limit, delta, {is_hit, hit.s}, kMostProbes);

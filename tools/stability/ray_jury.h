@@ -30,7 +30,10 @@ class RayJury {
     const render::SurfaceImage& image() const { return image_; }
     const trace::Field& field() const { return image_.field(); }
 
-    // Of the scene at mid-shutter, in the surface's coordinates.
+    // Mid-shutter, when all rays are traced.
+    double time() const;
+
+    // In the surface's coordinates.
     trace::Ray local(const WorldRay& ray) const;
     std::vector<trace::Hit> trace(std::span<const trace::Ray> rays) const;
 

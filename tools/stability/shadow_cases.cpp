@@ -41,7 +41,7 @@ std::vector<Decision> decisions(const RayJury& jury, Random& random, int count) 
         const glm::dvec3 x = d.seen.origin + d.hit.s * d.seen.direction;
         glm::vec3 normal;
         trace::TraceCounters counters;
-        jury.image().normals({&d.hit, 1}, {&x, 1}, {&normal, 1}, counters);
+        jury.image().normals({&d.hit, 1}, {&x, 1}, {}, {&normal, 1}, counters);
         if (glm::dot(glm::dvec3(normal), sun) <= 0.0) continue;
         d.to_sun = trace::shadow_ray(d.seen, d.hit, glm::dvec3(normal), sun);
         d.blocked = jury.trace({&d.to_sun, 1}).front();

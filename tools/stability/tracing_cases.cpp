@@ -203,6 +203,8 @@ std::vector<Extreme> extremes() {
          with(hyper, {"surface.octaves=1", "surface.frequency=2", "camera.position=[549755813888,1.5,-549755813888]",
                       "camera.look_at=[549755813888,1,-549755813882]", "camera.far=1000"}),
          pixel_rays},
+        {"noise that has drifted 2^30 cells, hyperterrain",
+         with(hyper, {"surface.drift=[1000,500,-800]", "shutter.fps=1", "shutter.frame=2000000"}), pixel_rays},
         {"bound touched from inside, isosurface all solid", with(iso, {"surface.threshold=-5"}), pixel_rays},
         {"scale 1e-6, turned, far from the world's origin",
          with(iso, {"surface.scale=1e-6", "surface.origin=[1e3,-2e3,3e3]", "surface.rotation_deg=[10,20,30]",
