@@ -116,7 +116,7 @@ std::string film_section(const ordered_json& film) {
                                escaped(name.substr(name.rfind('.') + 1)));
     }
     return fmt::format(
-        "<section id=\"{0}\">\n<h2>{1}</h2>\n<figure>\n<video controls loop muted autoplay playsinline "
+        "<section id=\"{0}\">\n<h2>{1}</h2>\n<figure>\n<video controls loop muted playsinline "
         "aria-label=\"{2}\">{3}</video>\n<figcaption>{2}</figcaption>\n</figure>\n<pre><code>{4}</code></pre>\n"
         "</section>\n",
         text_of(film.at("animation")), text_of(film.at("title")), text_of(film.at("caption")), sources,

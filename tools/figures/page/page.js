@@ -27,10 +27,8 @@ for (const comparison of document.querySelectorAll(".comparison")) {
   show();
 }
 
-// Films start by themselves only where motion is welcome.
-if (matchMedia("(prefers-reduced-motion: reduce)").matches) {
-  for (const film of document.querySelectorAll("video")) {
-    film.removeAttribute("autoplay");
-    film.pause();
-  }
+// Films start by themselves only where motion is welcome. The attribute autoplay would wait for a film to be scrolled to,
+// and would not ask.
+if (!matchMedia("(prefers-reduced-motion: reduce)").matches) {
+  for (const film of document.querySelectorAll("video")) film.play().catch(() => {});
 }
