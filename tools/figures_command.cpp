@@ -12,7 +12,7 @@
 #include "tools/figures/figure_maker.h"
 #include "tools/figures/films.h"
 #include "tools/figures/page.h"
-#include "tools/plot.h"
+#include "tools/plot/plot.h"
 #include "tools/process.h"
 #include "tools/scene_argument.h"
 #include "tools/standard_output.h"

@@ -12,8 +12,8 @@
 #include "tools/picture_metadata.h"
 #include "tools/render_picture.h"
 #include "tools/standard_output.h"
-#include "tools/strip_job.h"
-#include "tools/strip_sheet.h"
+#include "tools/strip/job.h"
+#include "tools/strip/sheet.h"
 
 namespace strata::tools {
 

@@ -7,11 +7,11 @@
 #include "tools/commands.h"
 #include "tools/errors.h"
 #include "tools/standard_output.h"
-#include "tools/sweep_job.h"
-#include "tools/sweep_render.h"
-#include "tools/sweep_results.h"
-#include "tools/sweep_sheet.h"
-#include "tools/sweep_tables.h"
+#include "tools/sweep/job.h"
+#include "tools/sweep/render.h"
+#include "tools/sweep/results.h"
+#include "tools/sweep/sheet.h"
+#include "tools/sweep/tables.h"
 
 namespace strata::tools {
 

@@ -1,11 +1,11 @@
 // Frames: how they are asked for, when motion loops, how their files are named.
-#include "tools/animate_range.h"
+#include "tools/animate/range.h"
 
 #include <doctest/doctest.h>
 
 #include "shaders_cpu/wheel.h"
 #include "src/trace/placement.h"
-#include "tools/animate_frames.h"
+#include "tools/animate/frames.h"
 #include "tools/errors.h"
 
 using namespace strata;

@@ -1,4 +1,4 @@
-#include "tools/plot.h"
+#include "tools/plot/plot.h"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 
 #include "src/image/read.h"
 #include "tests/image/scratch_folder.h"
-#include "tools/plot_script.h"
+#include "tools/plot/script.h"
 #include "tools/process.h"
 
 namespace {

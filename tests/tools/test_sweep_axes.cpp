@@ -1,4 +1,4 @@
-#include "tools/sweep_axes.h"
+#include "tools/sweep/axes.h"
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tools/converge/analysis.h"
-#include "tools/plot.h"
+#include "tools/plot/plot.h"
 
 namespace strata::tools {
 

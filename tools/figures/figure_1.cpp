@@ -7,7 +7,7 @@
 
 #include "src/filter/bspline.h"
 #include "tools/figures/figure.h"
-#include "tools/plot.h"
+#include "tools/plot/plot.h"
 
 namespace strata::tools::figures {
 

@@ -8,7 +8,7 @@
 #include "src/render/estimator.h"
 #include "src/scene/enum_names.h"
 #include "tools/figures/figure.h"
-#include "tools/plot.h"
+#include "tools/plot/plot.h"
 
 namespace strata::tools::figures {
 

@@ -3,8 +3,8 @@
 
 #include "src/image/canvas.h"
 #include "src/image/metadata.h"
-#include "tools/sweep_job.h"
-#include "tools/sweep_results.h"
+#include "tools/sweep/job.h"
+#include "tools/sweep/results.h"
 
 namespace strata::tools {
 

@@ -1,4 +1,4 @@
-#include "tools/animate_job.h"
+#include "tools/animate/job.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include "src/image/text.h"
 #include "src/scene/key_text.h"
 #include "src/scene/validate.h"
-#include "tools/animate_film.h"
-#include "tools/animate_sheet.h"
+#include "tools/animate/film.h"
+#include "tools/animate/sheet.h"
 #include "tools/errors.h"
 #include "tools/picture_metadata.h"
 #include "tools/process.h"

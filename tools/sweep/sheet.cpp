@@ -1,4 +1,4 @@
-#include "tools/sweep_sheet.h"
+#include "tools/sweep/sheet.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

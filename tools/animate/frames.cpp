@@ -1,4 +1,4 @@
-#include "tools/animate_frames.h"
+#include "tools/animate/frames.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "src/image/compare.h"
-#include "tools/sweep_job.h"
+#include "tools/sweep/job.h"
 
 namespace strata::tools {
 

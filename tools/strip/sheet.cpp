@@ -1,4 +1,4 @@
-#include "tools/strip_sheet.h"
+#include "tools/strip/sheet.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "tools/sweep_tables.h"
+#include "tools/sweep/tables.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "tools/strip_job.h"
+#include "tools/strip/job.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

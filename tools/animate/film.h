@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "tools/animate_frames.h"
-#include "tools/animate_range.h"
+#include "tools/animate/frames.h"
+#include "tools/animate/range.h"
 
 namespace strata::tools {
 

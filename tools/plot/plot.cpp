@@ -1,4 +1,4 @@
-#include "tools/plot.h"
+#include "tools/plot/plot.h"
 
 #include <fmt/format.h>
 #include <cstdlib>
@@ -9,7 +9,7 @@
 
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
-#include "tools/plot_script.h"
+#include "tools/plot/script.h"
 #include "tools/process.h"
 
 namespace strata::tools {

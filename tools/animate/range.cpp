@@ -1,4 +1,4 @@
-#include "tools/animate_range.h"
+#include "tools/animate/range.h"
 
 #include <fmt/format.h>
 

@@ -7,8 +7,8 @@
 
 #include "src/image/encode.h"
 #include "src/scene/scene.h"
-#include "tools/animate_frames.h"
-#include "tools/animate_range.h"
+#include "tools/animate/frames.h"
+#include "tools/animate/range.h"
 #include "tools/column_settings.h"
 #include "tools/scene_argument.h"
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "src/render/cancel.h"
-#include "tools/sweep_job.h"
-#include "tools/sweep_ledger.h"
+#include "tools/sweep/job.h"
+#include "tools/sweep/ledger.h"
 
 namespace strata::tools {
 

@@ -1,4 +1,4 @@
-#include "tools/sweep_job.h"
+#include "tools/sweep/job.h"
 
 #include <fmt/format.h>
 

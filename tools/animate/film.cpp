@@ -1,4 +1,4 @@
-#include "tools/animate_film.h"
+#include "tools/animate/film.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -12,7 +12,7 @@
 #include "src/render/film.h"
 #include "src/scene/scene.h"
 #include "tools/scene_argument.h"
-#include "tools/sweep_axes.h"
+#include "tools/sweep/axes.h"
 
 namespace strata::tools {
 

@@ -1,4 +1,4 @@
-#include "tools/sweep_render.h"
+#include "tools/sweep/render.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "tools/batch_progress.h"
 #include "tools/render_picture.h"
 #include "tools/standard_output.h"
-#include "tools/sweep_tables.h"
+#include "tools/sweep/tables.h"
 
 namespace strata::tools {
 

@@ -1,4 +1,4 @@
-#include "tools/plot_script.h"
+#include "tools/plot/script.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

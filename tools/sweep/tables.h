@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <span>
 
-#include "tools/sweep_job.h"
-#include "tools/sweep_ledger.h"
-#include "tools/sweep_results.h"
+#include "tools/sweep/job.h"
+#include "tools/sweep/ledger.h"
+#include "tools/sweep/results.h"
 
 namespace strata::tools {
 

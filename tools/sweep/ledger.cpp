@@ -1,4 +1,4 @@
-#include "tools/sweep_ledger.h"
+#include "tools/sweep/ledger.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "tools/plot.h"
+#include "tools/plot/plot.h"
 
 namespace strata::tools {
 

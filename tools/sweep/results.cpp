@@ -1,8 +1,8 @@
-#include "tools/sweep_results.h"
+#include "tools/sweep/results.h"
 
 #include "src/image/encode.h"
 #include "src/image/read.h"
-#include "tools/sweep_tables.h"
+#include "tools/sweep/tables.h"
 
 namespace strata::tools {
 

@@ -1,4 +1,4 @@
-#include "tools/animate_sheet.h"
+#include "tools/animate/sheet.h"
 
 #include <utility>
 

@@ -3,7 +3,7 @@
 
 #include "src/image/canvas.h"
 #include "src/image/metadata.h"
-#include "tools/strip_job.h"
+#include "tools/strip/job.h"
 
 namespace strata::tools {
 
