@@ -182,7 +182,12 @@ void Estimator::place_times(std::span<const glm::ivec2> owners, SampleSet& out) 
     out.scratch_x.resize(total);
     out.scratch_permutation.resize(n);
     for (std::size_t p = 0; p < owners.size(); ++p) {
-        sample::folded_times(key(owners[p]), out.scratch_permutation, std::span(out.scratch_q).subspan(p * n, n));
+        const std::span<float> q = std::span(out.scratch_q).subspan(p * n, n);
+        if (settings_.kind == EstimatorKind::random) {
+            sample::folded_random_times(key(owners[p]), q);
+        } else {
+            sample::folded_times(key(owners[p]), out.scratch_permutation, q);
+        }
     }
     time_->centred(out.scratch_q, out.scratch_x);
     for (std::size_t i = 0; i < total; ++i) {

@@ -7,13 +7,14 @@
 //   uniform        centres of N x N cells of the filter's support, weights (2)
 //   jittered       one sample anywhere in each of these cells, weights (2)
 //   stratified     one sample in each of N x N strata of probability, through N_m^-1: equal weights (3)
-//   random         N x N independent samples through N_m^-1
+//   random         N x N independent samples through N_m^-1, at independent times
 //   sobol          the first N x N points of an Owen-scrambled Sobol sequence through N_m^-1
 //   shared         N x N strata in each pixel-sized cell [i,i+1) of the screen; a sample counts in every pixel whose
 //                  support holds it, by its B-spline weight, and a pixel is divided by its sum of weights
 //   shared_sobol   the same with Owen-scrambled Sobol points in each cell
 //
-// All but `none` spread their samples over the shutter (18). Weights are normalised: a constant picture is exact.
+// All but `none` spread their samples over the shutter (18), all but `random` in strata of time. Weights are
+// normalised: a constant picture is exact.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Sample times (paper, equation 18): as many strata of time as there are samples, jittered, dealt to the samples of a
-// pixel or cell by a permutation of its own, then distributed by the B-spline of order l over the open shutter.
+// Sample times. Of the paper's equation 18: as many strata of time as there are samples, jittered, dealt to the samples
+// of a pixel or cell by a permutation of its own, then distributed by the B-spline of order l over the open shutter.
 #pragma once
 
 #include <cstdint>
@@ -19,5 +19,8 @@ struct Shutter {
 
 // The time strata of every sample, folded (strata.h). `permutation` is scratch of the same length.
 void folded_times(std::uint64_t cell_key, std::span<std::uint32_t> permutation, std::span<float> q);
+
+// Times without strata, each independent of the others.
+void folded_random_times(std::uint64_t cell_key, std::span<float> q);
 
 }  // namespace strata::sample

@@ -28,6 +28,24 @@ TEST_CASE("every pixel has one sample in each of its N^2 strata of time") {
     }
 }
 
+TEST_CASE("random times leave the share of strata empty that independent ones leave") {
+    const std::size_t n = 64;
+    std::vector<float> q(n);
+    std::size_t empty = 0;
+    const int pixels = 4000;
+    for (int pixel = 0; pixel < pixels; ++pixel) {
+        folded_random_times(cell_key(4, pixel, 3), q);
+        std::vector<int> count(n);
+        for (const float folded : q) ++count[std::min(n - 1, static_cast<std::size_t>(unfold(folded) * n))];
+        empty += static_cast<std::size_t>(std::count(count.begin(), count.end(), 0));
+    }
+    // n balls in n urns: each urn is empty with p = (1 - 1/n)^n; the variance of a pixel's count is below n p.
+    const double p = std::pow(1.0 - 1.0 / n, n);
+    const double z = (static_cast<double>(empty) - pixels * n * p) / std::sqrt(pixels * n * p);
+    MESSAGE("empty strata: ", z, " of a sigma's upper bound");
+    CHECK(std::fabs(z) < 4);
+}
+
 TEST_CASE("times are uncorrelated with sample indices over pixels") {
     const std::size_t n = 16;
     std::vector<std::uint32_t> scratch(n);
