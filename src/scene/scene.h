@@ -22,7 +22,7 @@ struct Film {
 };
 
 struct Sampling {
-    EstimatorKind estimator = EstimatorKind::stratified;
+    EstimatorKind estimator = EstimatorKind::shared_sobol;
     int N = 4;           // samples a side: N*N a pixel
     int m = 4;           // order of the B-spline in space
     int time_order = 1;  // order l of the B-spline in time

@@ -24,6 +24,7 @@ constexpr int kWidth = 48, kHeight = 27;
 scene::Scene small_scene(SurfaceKind kind) {
     scene::Scene scene;
     scene.film = {.width = kWidth, .height = kHeight};
+    scene.sampling.estimator = scene::EstimatorKind::stratified;
     scene.sampling.N = 2;
     scene.surface.kind = kind;
     scene.surface.octaves = 6;

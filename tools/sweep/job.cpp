@@ -79,7 +79,7 @@ void make_cells(const SweepRequest& request, SweepJob& job) {
 scene::Scene target_of(const SweepCell& cell) {
     scene::Scene target = cell.picture.scene;
     if (target.sampling.estimator == scene::EstimatorKind::super) target.sampling.m = 1;
-    target.sampling.estimator = scene::EstimatorKind::sobol;
+    target.sampling.estimator = scene::EstimatorKind::shared_sobol;
     target.sampling.N = kMostN;
     target.film.exposure = 0;
     return target;

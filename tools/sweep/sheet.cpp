@@ -80,7 +80,8 @@ std::string reference_text(const SweepJob& job, const SweepResults& results) {
     }
     const bool one = errors.size() == 1;
     std::string text = fmt::format(
-        "RMSE of linear radiance against {}: the mean of two independent Sobol pictures of N = {}, whose own RMSE is "
+        "RMSE of linear radiance against {}: the mean of two independent shared-sobol pictures of N = {}, whose own "
+        "RMSE is "
         "about {}. ",
         one ? "a reference of the same filter" : "a reference for each filter and scene", N, fmt::join(errors, ", "));
     for (std::size_t i = 0; i < job.cells.size(); ++i) {
