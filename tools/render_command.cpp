@@ -15,6 +15,7 @@
 #include "tools/render_job.h"
 #include "tools/render_picture.h"
 #include "tools/run_statistics.h"
+#include "tools/settings_mark.h"
 #include "tools/standard_output.h"
 
 namespace strata::tools {
@@ -81,7 +82,8 @@ int render_command(const RenderRequest& request) {
     warn_of_unresolved(job, result.render.counters.unresolved_rays);
     if (result.render.cancelled && !job.quiet) print_out(stopped_line(rendered));
     bool all_written = write_outputs(job, rendered.picture, result);
-    const RunStatistics statistics = collect(result, job.goal, job.loaded.name);
+    RunStatistics statistics = collect(result, job.goal, job.loaded.name);
+    statistics.settings_mark = settings_mark(job.loaded.scene, job.window, job.tracer);
     if (!job.statistics.empty()) all_written &= succeeds([&] { write_statistics(job.statistics, statistics); });
     if (!job.quiet) print_out(summary(statistics));
     if (!all_written) return kExitRuntime;

@@ -108,6 +108,7 @@ RunStatistics collect(const render::RenderResult& result, const std::string& sce
             .simd_target = noise::simd_target(),
             .peak_memory_bytes = peak_memory(),
             .scene = scene,
+            .settings_mark = {},
             .passes = {}};
 }
 
@@ -144,6 +145,7 @@ void write_statistics(const std::filesystem::path& path, const RunStatistics& st
                                    {"seconds", statistics.seconds},
                                    {"cpu_seconds", statistics.cpu_seconds},
                                    {"peak_memory_bytes", statistics.peak_memory_bytes}};
+    if (!statistics.settings_mark.empty()) json["settings_mark"] = statistics.settings_mark;
     if (statistics.passes) json.update(passes_json(*statistics.passes));
     // A scene's file name need not be UTF-8.
     const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

@@ -6,6 +6,7 @@
 
 #include "src/sample/counter_hash.h"
 #include "src/sample/strata.h"
+#include "src/scene/needs.h"
 
 namespace strata::render {
 
@@ -44,6 +45,8 @@ EstimatorSettings estimator_settings(const scene::Scene& scene) {
     settings.time_order = scene.sampling.time_order;
     settings.seed = seed_of_frame(scene.sampling.seed, scene.shutter.frame);
     settings.shutter = {scene.shutter.frame / scene.shutter.fps, scene.shutter.open_s};
+    // Where nothing moves any time does: no times are drawn.
+    if (!scene::needs_time_samples(scene)) settings.shutter = {settings.shutter.middle_s(), 0.0};
     return settings;
 }
 

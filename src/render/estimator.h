@@ -41,7 +41,8 @@ struct EstimatorSettings {
     sample::Shutter shutter;
 };
 
-// The settings a scene asks for, its frame's time included. Each frame has sample positions of its own: its seed is the
+// The settings a scene asks for, its frame's time included; where nothing moves while the shutter is open, that is the
+// instant in its middle. Each frame has sample positions of its own: its seed is the
 // scene's mixed with the frame's number, and the scene's itself for frame 0.
 EstimatorSettings estimator_settings(const scene::Scene& scene);
 
@@ -76,6 +77,12 @@ class Estimator {
 
     // Whether samples belong to screen cells and are shared by pixels, rather than belong to a pixel.
     bool shared() const;
+
+    // Whether samples are placed by the inverse of the filter's distribution.
+    bool inverts_filter() const { return space_.has_value(); }
+
+    // Whether samples count by B-spline weights.
+    bool weighs_samples() const { return weights_.has_value(); }
 
     // Samples a pixel, or a cell where they are shared.
     int sample_count() const { return sample_count_; }

@@ -6,6 +6,7 @@
 
 #include "shaders_cpu/sky.h"
 #include "shaders_cpu/terrain_material.h"
+#include "src/scene/needs.h"
 #include "src/trace/reference_tracer.h"
 #include "src/trace/shadow_ray.h"
 
@@ -85,17 +86,40 @@ void SurfaceImage::trace(std::span<const trace::Ray> rays, std::span<trace::Hit>
     fast_.trace(rays, hits, counters);
 }
 
+void SurfaceImage::gradients(std::span<const glm::dvec3> x, std::span<const glm::dvec3> noise_shift,
+                             std::span<glm::vec3> gradient, trace::TraceCounters& counters) const {
+    if (tracer_ == Tracer::fast) return fast_.gradients(x, noise_shift, gradient, counters);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        gradient[i] = glm::vec3(field_.gradient(x[i], noise_shift.empty() ? glm::dvec3(0.0) : noise_shift[i]));
+    }
+    counters.noise_evaluations += x.size() * field_.octaves().size();
+    counters.executed_lanes += x.size() * field_.octaves().size();
+}
+
+// On the bound the noise has no part in the normal, and is not evaluated.
+void SurfaceImage::gradients_off_bound(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
+                                       std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient,
+                                       trace::TraceCounters& counters) const {
+    std::vector<std::size_t> off_bound;
+    std::vector<glm::dvec3> inner_x, inner_shift;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (hits[i].on_bound) continue;
+        off_bound.push_back(i);
+        inner_x.push_back(x[i]);
+        if (!noise_shift.empty()) inner_shift.push_back(noise_shift[i]);
+    }
+    std::vector<glm::vec3> inner_gradient(inner_x.size());
+    gradients(inner_x, inner_shift, inner_gradient, counters);
+    for (std::size_t i = 0; i < off_bound.size(); ++i) gradient[off_bound[i]] = inner_gradient[i];
+}
+
 void SurfaceImage::normals(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
                            std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> normal,
                            trace::TraceCounters& counters) const {
-    if (tracer_ == Tracer::reference) {
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            normal[i] = glm::vec3(field_.gradient(x[i], noise_shift.empty() ? glm::dvec3(0.0) : noise_shift[i]));
-        }
-        counters.noise_evaluations += x.size() * field_.octaves().size();
-        counters.executed_lanes += x.size() * field_.octaves().size();
+    if (std::ranges::any_of(hits, &trace::Hit::on_bound)) {
+        gradients_off_bound(hits, x, noise_shift, normal, counters);
     } else {
-        fast_.gradients(x, noise_shift, normal, counters);
+        gradients(x, noise_shift, normal, counters);
     }
     for (std::size_t i = 0; i < x.size(); ++i) {
         if (hits[i].on_bound) normal[i] = glm::vec3(field_.bound_normal(x[i]));
@@ -125,16 +149,20 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
     chunk.view.resize(count);
     chunk.sun.resize(count);
     glm::dmat3 orientation = placement_.orientation(0.0);
+    glm::dvec3 sun = trace::Placement::direction_to_local(orientation, sun_direction_);
     std::optional<trace::Camera> moved;
     for (std::size_t i = 0; i < count; ++i) {
         const double t = samples.t[i];
         const bool is_new_time = i == 0 || t != samples.t[i - 1];  // of an instant there is one
-        if (placement_.moves() && is_new_time) orientation = placement_.orientation(t);
+        if (placement_.moves() && is_new_time) {
+            orientation = placement_.orientation(t);
+            sun = trace::Placement::direction_to_local(orientation, sun_direction_);
+        }
         if (path_.moves() && is_new_time) moved.emplace(path_.at(t), scene_.film);
         const trace::Ray world = camera_ray(moved ? *moved : camera_, samples.u[i], samples.v[i]);
         chunk.rays[i] = to_local(orientation, world, t);
         chunk.view[i] = trace::Placement::direction_to_local(placement_.resting_orientation(), world.direction);
-        chunk.sun[i] = trace::Placement::direction_to_local(orientation, sun_direction_);
+        chunk.sun[i] = sun;
     }
     chunk.hits.resize(count);
     trace(chunk.rays, chunk.hits, traced);
@@ -170,7 +198,7 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
     }
     add(counters, traced);
 
-    if (scene_.sun.shadows && scene_.sun.intensity > 0.0) shadow(chunk, counters);
+    if (scene::needs_shadow_rays(scene_.sun)) shadow(chunk, counters);
     for (const Lit& lit : chunk.lit) radiance[lit.sample] = shade_hit(lit);
     counters.hits += chunk.lit.size();
 }

@@ -137,6 +137,15 @@ Camera CameraPath::at(double t) const {
     return camera;
 }
 
+// Between equal keys both slopes are 0, so the camera rests there.
+bool CameraPath::moves_during(const TimeSpan& span) const {
+    for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
+        const Knot &a = knots_[i], &b = knots_[i + 1];
+        if (a.time_s < span.last && b.time_s > span.first && a.value != b.value) return true;
+    }
+    return false;
+}
+
 std::vector<glm::dvec3> CameraPath::position_hull(const TimeSpan& span) const {
     std::vector<glm::dvec3> hull{at(span.first).position, at(span.last).position};
     for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {

@@ -33,6 +33,9 @@ class CameraPath {
     // Whether cameras at different times can differ.
     bool moves() const { return knots_.size() > 1; }
 
+    // Whether cameras at different times in that span can differ: keys around it do.
+    bool moves_during(const TimeSpan& span) const;
+
     // Without keys, at any time.
     Camera at(double t) const;
 

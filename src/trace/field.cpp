@@ -6,6 +6,7 @@
 
 #include "noise/bounds.h"
 #include "noise/reference.h"
+#include "src/scene/needs.h"
 
 namespace strata::trace {
 
@@ -73,7 +74,8 @@ Interval clip_box(const glm::dvec3& origin, const glm::dvec3& direction, const g
 
 }  // namespace
 
-Field::Field(const scene::Surface& surface) : surface_(surface), octaves_(live_octaves(surface)) {
+Field::Field(const scene::Surface& surface)
+    : surface_(surface), octaves_(live_octaves(surface)), drifts_(scene::noise_drifts(surface)) {
     const noise::NoiseBounds& bounds = is_planar_noise() ? noise::kBounds2 : noise::kBounds3;
     const double base_slope = surface_.kind == SurfaceKind::isosurface ? 0.0 : 1.0;
     lipschitz_ = base_slope;

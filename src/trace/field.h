@@ -41,8 +41,8 @@ class Field {
     // Upper bound of |grad f|.
     double lipschitz() const { return lipschitz_; }
 
-    // Whether the noise moves through the surface.
-    bool drifts() const { return surface_.drift != glm::dvec3(0.0); }
+    // Whether the noise moves through the surface, and that changes it.
+    bool drifts() const { return drifts_; }
 
     // -drift * t, t in seconds; exactly zero without drift.
     glm::dvec3 noise_shift(double t) const { return drifts() ? -t * surface_.drift : glm::dvec3(0.0); }
@@ -71,6 +71,7 @@ class Field {
     std::vector<noise::Octave> octaves_;
     double amplitude_ = 0.0;
     double lipschitz_ = 1.0;
+    bool drifts_ = false;
 };
 
 }  // namespace strata::trace

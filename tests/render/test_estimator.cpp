@@ -183,6 +183,7 @@ TEST_CASE("a scene's settings carry over, with the frame's time") {
     scene::Scene scene;
     scene.sampling = {EstimatorKind::sobol, 7, 3, 2, 99};
     scene.shutter = {25.0, 0.033, 10};
+    scene.surface.spin_deg_per_s = 1.0;
     const EstimatorSettings taken = estimator_settings(scene);
     CHECK(taken.kind == EstimatorKind::sobol);
     CHECK(taken.N == 7);

@@ -1,0 +1,27 @@
+#include "src/scene/needs.h"
+
+#include "src/scene/camera_path.h"
+
+namespace strata::scene {
+
+bool noise_drifts(const Surface& surface) {
+    if (surface.amplitude == 0.0) return false;
+    const glm::dvec3& d = surface.drift;
+    return d.x != 0.0 || d.z != 0.0 || (d.y != 0.0 && surface.kind != SurfaceKind::terrain);
+}
+
+Motion motion(const Scene& scene) {
+    if (scene.image == ImageKind::wheel) return {.wheel = scene.wheel.turns_per_s != 0.0};
+    if (scene.image != ImageKind::surface) return {};
+    return {.camera = CameraPath(scene.camera).moves_during(open_shutter(scene)),
+            .spin = scene.surface.spin_deg_per_s != 0.0,
+            .drift = noise_drifts(scene.surface)};
+}
+
+bool needs_time_samples(const Scene& scene) {
+    return scene.sampling.estimator != EstimatorKind::none && scene.shutter.open_s > 0.0 && motion(scene).any();
+}
+
+bool needs_shadow_rays(const Sun& sun) { return sun.shadows && sun.intensity > 0.0 && sun.colour != glm::dvec3(0.0); }
+
+}  // namespace strata::scene

@@ -1,0 +1,31 @@
+// What a scene's frame needs of a renderer. The renderer asks here what it may leave out, and `strata explain` tells
+// from here what it did leave out, so that the two cannot disagree.
+#pragma once
+
+#include "src/scene/scene.h"
+
+namespace strata::scene {
+
+// Whether a drift of the noise changes the surface: a height field's noise does not depend on y, and a surface without
+// octaves has no noise.
+bool noise_drifts(const Surface& surface);
+
+// What of a scene moves while the frame's shutter is open.
+struct Motion {
+    bool camera = false;  // along its keys
+    bool spin = false;    // of the surface
+    bool drift = false;   // of the noise
+    bool wheel = false;   // the image-plane pattern
+
+    bool any() const { return camera || spin || drift || wheel; }
+};
+Motion motion(const Scene& scene);
+
+// Whether samples are spread over the time that the shutter is open: it is open for longer than an instant, something
+// moves meanwhile, and the estimator samples more than the pixel's centre.
+bool needs_time_samples(const Scene& scene);
+
+// Whether a shadow can darken a surface: it takes sunlight.
+bool needs_shadow_rays(const Sun& sun);
+
+}  // namespace strata::scene

@@ -1,0 +1,46 @@
+// What a render of a scene does and what it leaves out, told before it begins.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/render/surface_image.h"
+#include "src/scene/scene.h"
+
+namespace strata::tools {
+
+// Something that a renderer could do.
+struct Feature {
+    std::string name;
+    bool needed = false;
+    std::string why;
+};
+
+// What an octave does to rays that meet the surface at distances [from, to) from the eye.
+struct OctaveRole {
+    double from = 0.0, to = 0.0;  // world units
+    std::string role;             // "geometry" (hit and normal), "normal", "nothing"
+};
+
+struct OctavePlan {
+    int octave = 1;              // from 1, coarsest first
+    double amplitude = 0.0;      // of f, in surface units
+    double wavelength = 0.0;     // side of a lattice cell, world units
+    double pixel_wide_at = 0.0;  // distance at which that is a pixel at the frame's centre, world units
+    // Distance from which the octave raises or lowers the surface by less than the tolerance of a hit; none for
+    // isosurfaces, whose f is no height.
+    std::optional<double> below_tolerance_from;
+    std::vector<OctaveRole> roles;
+};
+
+struct Plan {
+    std::vector<Feature> features;
+    std::vector<OctavePlan> octaves;  // none for image-plane patterns
+    std::string octaves_note;         // empty for these
+};
+
+// Of a valid scene.
+Plan make_plan(const scene::Scene& scene, render::Tracer tracer);
+
+}  // namespace strata::tools

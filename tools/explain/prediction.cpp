@@ -1,0 +1,86 @@
+#include "tools/explain/prediction.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "src/render/estimator.h"
+#include "src/render/make_image.h"
+#include "src/scene/needs.h"
+#include "tools/explain/pilot.h"
+
+namespace strata::tools {
+
+namespace {
+
+render::Window owners_of(const render::Window& window, const render::Estimator& estimator) {
+    if (!estimator.shared()) return window;
+    const int reach = estimator.weights().reach();
+    return {window.x0 - reach, window.y0 - reach, window.x1 + reach, window.y1 + reach};
+}
+
+// The program with its libraries, of which this process has as many; the film and the picture beside it; samples and
+// rays on their way in each thread; and the runs of shared samples.
+double expected_memory(const render::Window& window, const render::Estimator& estimator, int threads) {
+    constexpr double kFilmBytes = 13, kPictureBytes = 12;  // a pixel
+    constexpr double kWorkerBytes = 1.5e6, kSharedBytes = 8.4e6;
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const double pixels = 1.0 * window.width() * window.height();
+    return 1024.0 * static_cast<double>(usage.ru_maxrss) + (kFilmBytes + kPictureBytes) * pixels +
+           kWorkerBytes * threads + (estimator.shared() ? kSharedBytes : 0.0);
+}
+
+// Counts that are known to be zero.
+void leave_out(const scene::Scene& scene, Costs& costs) {
+    if (scene.image != scene::ImageKind::surface) {
+        costs.shadow_rays = costs.hits = costs.noise_evaluations = costs.steps = costs.executed_lanes = 0.0;
+    } else if (!scene::needs_shadow_rays(scene.sun)) {
+        costs.shadow_rays = 0.0;
+    }
+}
+
+void extrapolate(const PilotRun& run, double estimator_s, int threads, Costs& costs) {
+    const render::Counters& c = run.counters;
+    const double ratio = static_cast<double>(costs.rays) / static_cast<double>(c.rays);
+    const auto scaled = [&](std::uint64_t count) { return ratio * static_cast<double>(count); };
+    costs.shadow_rays = scaled(c.shadow_rays);
+    costs.hits = scaled(c.hits);
+    costs.noise_evaluations = scaled(c.noise_evaluations);
+    costs.steps = scaled(c.steps);
+    costs.executed_lanes = scaled(c.executed_lanes);
+    costs.cpu_seconds = ratio * run.cpu_seconds + estimator_s * static_cast<double>(costs.rays);
+    costs.seconds = *costs.cpu_seconds / threads;
+}
+
+}  // namespace
+
+std::uint64_t pilot_rays(std::uint64_t rays, render::Tracer tracer) {
+    const std::uint64_t most = tracer == render::Tracer::reference ? kMostReferenceRays : kMostPilotRays;
+    const auto share = static_cast<std::uint64_t>(kPilotFraction * static_cast<double>(rays));
+    return std::min(rays, std::clamp(share, kLeastPilotRays, most));
+}
+
+Prediction predict(const scene::Scene& scene, const render::Window& window, render::Tracer tracer, int threads,
+                   bool with_pilot) {
+    const render::EstimatorSettings settings = render::estimator_settings(scene);
+    const render::Estimator estimator(settings);
+    const render::Window owners = owners_of(window, estimator);
+    Prediction prediction;
+    prediction.threads = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    Costs& costs = prediction.costs;
+    costs.rays = std::uint64_t{1} * static_cast<std::uint64_t>(owners.width()) *
+                 static_cast<std::uint64_t>(owners.height()) * static_cast<std::uint64_t>(estimator.sample_count());
+    leave_out(scene, costs);
+    costs.peak_memory_bytes = expected_memory(window, estimator, prediction.threads);
+    if (with_pilot) {
+        const auto image = render::make_image(scene, tracer);
+        const PilotRun run = run_pilot(*image, settings, owners, pilot_rays(costs.rays, tracer));
+        prediction.pilot = Pilot{run.counters.rays, run.cpu_seconds};
+        extrapolate(run, estimator_seconds_a_ray(settings), prediction.threads, costs);
+    }
+    return prediction;
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,48 @@
+// What a render will cost, from a pilot of a few of its rays; and what one did cost, as `strata render --stats` told.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "src/render/film.h"
+#include "src/render/surface_image.h"
+#include "src/scene/scene.h"
+
+namespace strata::tools {
+
+// Nothing where it is not known. Predicted counts are rounded expectations; rays are exact.
+struct Costs {
+    std::uint64_t rays = 0;
+    std::optional<double> shadow_rays, hits, noise_evaluations, steps, executed_lanes;
+    std::optional<double> cpu_seconds, seconds;
+    std::optional<double> peak_memory_bytes;
+};
+
+struct Pilot {
+    std::uint64_t rays = 0;  // of the scene's picture; shadow rays come on top, as in a render
+    double cpu_seconds = 0.0;
+};
+
+struct Prediction {
+    Costs costs;
+    std::optional<Pilot> pilot;
+    int threads = 1;
+};
+
+// A pilot takes this fraction of the rays, but at least kLeastPilotRays, or all if there are fewer, and at most
+// kMostPilotRays, or kMostReferenceRays of the reference tracer's.
+inline constexpr double kPilotFraction = 0.01;
+inline constexpr std::uint64_t kLeastPilotRays = 4096;
+inline constexpr std::uint64_t kMostPilotRays = 1u << 18;
+inline constexpr std::uint64_t kMostReferenceRays = 1u << 14;
+
+std::uint64_t pilot_rays(std::uint64_t rays, render::Tracer tracer);
+
+// Of rendering the window of a valid scene's frame once. threads: 0 as many as the machine has. Counts are the same in
+// every run, but for those of idle lanes; times are not.
+Prediction predict(const scene::Scene& scene, const render::Window& window, render::Tracer tracer, int threads,
+                   bool with_pilot);
+
+}  // namespace strata::tools

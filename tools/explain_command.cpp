@@ -1,0 +1,130 @@
+// strata explain: what a render does, what it leaves out, and what it will cost.
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include "noise/simd_target.h"
+#include "src/image/image_error.h"
+#include "src/image/output_file.h"
+#include "tools/commands.h"
+#include "tools/errors.h"
+#include "tools/explain/explanation.h"
+#include "tools/scene_argument.h"
+#include "tools/settings_mark.h"
+#include "tools/standard_output.h"
+
+namespace strata::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExplainRequest {
+    SceneArgument scene;
+    std::string crop, tracer, simd, json, statistics, threads = "0";
+    bool no_pilot = false, quiet = false;
+};
+
+constexpr int kMostThreads = 1024;
+
+bool same_file(const fs::path& a, const fs::path& b) {
+    std::error_code error;
+    return fs::equivalent(a, b, error) && !error;
+}
+
+// The same settings that `strata render` takes from the same words.
+render::Window window_of(const ExplainRequest& request, const LoadedScene& loaded) {
+    const scene::Film& film = loaded.scene.film;
+    if (!request.crop.empty()) return parse_crop("--crop", request.crop, film);
+    if (loaded.crop) return parse_crop(loaded.source + ": its --crop", *loaded.crop, film);
+    return {0, 0, film.width, film.height};
+}
+
+void check_json(const ExplainRequest& request, const LoadedScene& loaded) {
+    if (request.json.empty()) return;
+    for (const std::string& input : {loaded.source, request.statistics}) {
+        if (!input.empty() && same_file(input, request.json)) {
+            throw UsageError("--json " + request.json + ": this is what is to be read; allowed: a file of its own");
+        }
+    }
+    image::check_replaceable(request.json);
+}
+
+int explain_command(const ExplainRequest& request) {
+    const int threads = parse_integer("--threads", request.threads, 0, kMostThreads);
+    LoadedScene loaded = request.scene.load();
+    if (!request.simd.empty()) {
+        use_simd_target(request.simd);
+    } else if (loaded.simd_target) {
+        noise::pin_simd_target(*loaded.simd_target);
+    }
+    Explanation explanation;
+    explanation.window = window_of(request, loaded);
+    explanation.tracer = !request.tracer.empty() ? request.tracer : loaded.tracer.value_or("fast");
+    const render::Tracer tracer = parse_tracer(explanation.tracer);
+    explanation.simd_target = noise::simd_target();
+    explanation.name = loaded.name;
+    explanation.scene = loaded.scene;
+    check_json(request, loaded);
+    const auto known = predict(loaded.scene, explanation.window, tracer, threads, false);
+    if (!request.statistics.empty()) {
+        const std::string mark = settings_mark(loaded.scene, explanation.window, explanation.tracer);
+        explanation.recorded = read_recorded(request.statistics, mark, known.costs.rays);
+    }
+    explanation.plan = make_plan(loaded.scene, tracer);
+    explanation.prediction =
+        request.no_pilot ? known : predict(loaded.scene, explanation.window, tracer, threads, true);
+    if (!request.json.empty()) {
+        const std::string text = explanation_json(explanation);
+        image::replace_file(request.json, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+    }
+    if (!request.quiet) print_out(explanation_text(explanation));
+    return 0;
+}
+
+}  // namespace
+
+void add_explain_command(CLI::App& program, int& exit_code) {
+    CLI::App* command =
+        program.add_subcommand("explain", "Tell what a render does, what it leaves out, and what it will cost");
+    auto request = std::make_shared<ExplainRequest>();
+    request->scene.add_to(*command);
+    command->add_option("--crop", request->crop, "As for render: pixels [x0,x1) x [y0,y1) of the frame alone")
+        ->type_name("x0,y0,x1,y1");
+    command
+        ->add_option("--threads", request->threads, "As for render: threads, up to 1024; 0: as many as the machine has")
+        ->type_name("n")
+        ->capture_default_str();
+    command->add_option("--tracer", request->tracer, "As for render: fast or reference; default fast")
+        ->type_name("NAME");
+    command
+        ->add_option("--simd", request->simd,
+                     "As for render: avx512, avx2, sse4 or scalar; default the best that is here")
+        ->type_name("TARGET");
+    command->add_flag("--no-pilot", request->no_pilot, "Cast no rays: tell only what is known without");
+    command
+        ->add_option(
+            "--stats", request->statistics,
+            "What `strata render --stats` wrote of the same render: the actual costs beside the predicted ones")
+        ->type_name("FILE.json");
+    command->add_option("--json", request->json, "Write the same as JSON")->type_name("FILE.json");
+    command->add_flag("--quiet", request->quiet, "No text");
+    command->footer(
+        "A pilot casts 1 % of the rays - at least 4096, or all; at most 262144, or 16384 of the reference tracer's -\n"
+        "spread over the frame, on one thread. Counts are the same in every run; times are not.\n"
+        "Distances and wavelengths are in world units; a pixel is that at the frame's centre, mid-shutter. `below\n"
+        "tolerance from`: farther away the octave raises or lowers the surface by less than a hit's tolerance.\n"
+        "JSON: scene, version, width, height, crop [x0,y0,x1,y1], estimator, N, m, tracer, simd_target, threads;\n"
+        "features [{name, needed, why}];\n"
+        "octaves [{octave, amplitude, wavelength, pixel_wide_at, below_tolerance_from, roles [{from, to, role}]}] "
+        "with\n"
+        "role geometry (hits and normals), normal or nothing; below_tolerance_from is null for isosurfaces;\n"
+        "pilot {rays, share, cpu_seconds} or null; recorded {passes, threads, simd_target} or null, of --stats;\n"
+        "costs {rays, shadow_rays, hits, noise_evaluations, executed_lanes, steps, cpu_seconds, seconds,\n"
+        "peak_memory_bytes}, each {predicted, actual, ratio}, null where not known. Of several passes actual is one's "
+        "share.\n"
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, scene or --stats.");
+    command->callback([request, &exit_code] { exit_code = explain_command(*request); });
+}
+
+}  // namespace strata::tools
