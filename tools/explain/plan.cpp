@@ -91,7 +91,7 @@ void add_surface(FeatureList& list, const scene::Scene& scene) {
             "finest octaves", false,
             fmt::format("{} of {} are below the last bit of a double", surface.octaves - octaves, surface.octaves));
     }
-    list.add("bound", surface.kind == SurfaceKind::isosurface,
+    list.add("ball or box", surface.kind == SurfaceKind::isosurface,
              "the isosurface is cut from a ball or box; hits on it need no noise for their normal",
              "only isosurfaces are cut from a ball or box");
     list.add("shadow rays", scene::needs_shadow_rays(scene.sun), shadow_reason(scene.sun));

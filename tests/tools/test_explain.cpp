@@ -1,0 +1,302 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "src/render/estimator.h"
+#include "src/render/make_image.h"
+#include "src/render/render.h"
+#include "src/scene/builtin.h"
+#include "src/scene/toml_reader.h"
+#include "src/scene/validate.h"
+#include "tests/image/scratch_folder.h"
+#include "tools/errors.h"
+#include "tools/explain/explanation.h"
+#include "tools/explain/pilot.h"
+#include "tools/settings_mark.h"
+
+using namespace strata;
+using namespace strata::tools;
+
+namespace {
+
+scene::Scene small_builtin(const scene::BuiltinScene& builtin) {
+    scene::Scene scene = scene::read_scene(builtin.text, builtin.name);
+    scene.film.width = 128;
+    scene.film.height = 72;
+    scene.sampling.N = 2;
+    return scene;
+}
+
+render::Window whole(const scene::Scene& scene) { return {0, 0, scene.film.width, scene.film.height}; }
+
+render::Counters count(const scene::Scene& scene, const render::Window& window, render::Tracer tracer) {
+    const auto image = render::make_image(scene, tracer);
+    return render::render(*image, render::Estimator(render::estimator_settings(scene)), window).counters;
+}
+
+// The largest factor between predicted and actual counts, and its name.
+struct Worst {
+    double factor = 1.0;
+    std::string name = "none";
+
+    void compare(const char* count_name, const std::optional<double>& predicted, std::uint64_t actual) {
+        REQUIRE(predicted.has_value());
+        CHECK((*predicted == 0.0) == (actual == 0));
+        if (actual == 0) return;
+        const double ratio = *predicted / static_cast<double>(actual);
+        const double off = std::max(ratio, 1.0 / ratio);
+        if (off > factor) *this = {off, count_name};
+    }
+};
+
+Worst worst_prediction(const scene::Scene& scene, const render::Window& window, render::Tracer tracer) {
+    const Prediction prediction = predict(scene, window, tracer, 1, true);
+    const render::Counters actual = count(scene, window, tracer);
+    CHECK(prediction.costs.rays == actual.rays);
+    Worst worst;
+    worst.compare("shadow rays", prediction.costs.shadow_rays, actual.shadow_rays);
+    worst.compare("hits", prediction.costs.hits, actual.hits);
+    worst.compare("noise evaluations", prediction.costs.noise_evaluations, actual.noise_evaluations);
+    worst.compare("steps", prediction.costs.steps, actual.steps);
+    worst.compare("executed lanes", prediction.costs.executed_lanes, actual.executed_lanes);
+    return worst;
+}
+
+const Feature& feature(const Plan& plan, const std::string& name) {
+    const auto found = std::ranges::find(plan.features, name, &Feature::name);
+    REQUIRE(found != plan.features.end());
+    return *found;
+}
+
+Explanation explain(const scene::Scene& scene, bool with_pilot) {
+    Explanation explanation;
+    explanation.name = "scene";
+    explanation.scene = scene;
+    explanation.window = whole(scene);
+    explanation.tracer = "fast";
+    explanation.plan = make_plan(scene, render::Tracer::fast);
+    explanation.prediction = predict(scene, explanation.window, render::Tracer::fast, 1, with_pilot);
+    return explanation;
+}
+
+}  // namespace
+
+TEST_CASE("counts are predicted within a factor of 1.5 on every built-in scene") {
+    for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
+        const scene::Scene scene = small_builtin(builtin);
+        const Worst worst = worst_prediction(scene, whole(scene), render::Tracer::fast);
+        MESSAGE(builtin.name << ": off by " << worst.factor << " at most (" << worst.name << "; allowed 1.5)");
+        CHECK(worst.factor < 1.5);
+    }
+}
+
+TEST_CASE("counts are predicted within a factor of 1.5 for every estimator, for a crop and for the reference tracer") {
+    scene::Scene scene = small_builtin(*scene::find_builtin("terrain"));
+    scene.surface.octaves = 6;
+    for (int kind = 0; kind < 9; ++kind) {
+        scene.sampling.estimator = static_cast<scene::EstimatorKind>(kind);
+        scene.sampling.m = 1 + kind;
+        const Worst worst = worst_prediction(scene, whole(scene), render::Tracer::fast);
+        MESSAGE("estimator " << kind << ": off by " << worst.factor << " (" << worst.name << ")");
+        CHECK(worst.factor < 1.5);
+    }
+    scene.sampling.N = 5;
+    CHECK(worst_prediction(scene, {10, 40, 70, 60}, render::Tracer::fast).factor < 1.5);
+    scene.sampling = {.N = 2};
+    scene.film = {.width = 64, .height = 36};
+    CHECK(worst_prediction(scene, whole(scene), render::Tracer::reference).factor < 1.5);
+}
+
+TEST_CASE("a pilot takes a hundredth of the rays, no fewer than its least and no more than its most") {
+    using render::Tracer;
+    CHECK(pilot_rays(1, Tracer::fast) == 1);
+    CHECK(pilot_rays(kLeastPilotRays, Tracer::fast) == kLeastPilotRays);
+    CHECK(pilot_rays(10 * kLeastPilotRays, Tracer::fast) == kLeastPilotRays);
+    CHECK(pilot_rays(10'000'000, Tracer::fast) == 100'000);
+    CHECK(pilot_rays(std::uint64_t{1} << 44, Tracer::fast) == kMostPilotRays);
+    CHECK(pilot_rays(std::uint64_t{1} << 44, Tracer::reference) == kMostReferenceRays);
+    // The rays that are cast are not more.
+    scene::Scene scene = small_builtin(*scene::find_builtin("zoneplate"));
+    const auto image = render::make_image(scene);
+    for (const int N : {1, 2, 3, 7, 64}) {
+        for (const int side : {1, 2, 50, 300}) {
+            scene.sampling.N = N;
+            const render::EstimatorSettings settings = render::estimator_settings(scene);
+            const std::uint64_t rays = std::uint64_t{1} * N * N * side * side;
+            const std::uint64_t allowed = pilot_rays(rays, Tracer::fast);
+            const PilotRun run = run_pilot(*image, settings, {0, 0, side, side}, allowed);
+            CHECK(run.counters.rays <= allowed);
+            CHECK(2 * run.counters.rays > std::min<std::uint64_t>(allowed, std::uint64_t{16} * side * side));
+        }
+    }
+}
+
+TEST_CASE("predicted counts are the same in every run") {
+    const scene::Scene scene = small_builtin(*scene::find_builtin("isosurface"));
+    const Costs a = predict(scene, whole(scene), render::Tracer::fast, 1, true).costs;
+    const Costs b = predict(scene, whole(scene), render::Tracer::fast, 8, true).costs;
+    CHECK(a.noise_evaluations == b.noise_evaluations);
+    CHECK(a.shadow_rays == b.shadow_rays);
+    CHECK(a.steps == b.steps);
+}
+
+TEST_CASE("without a pilot only what is certain is told") {
+    scene::Scene scene = small_builtin(*scene::find_builtin("terrain"));
+    const Costs costs = predict(scene, whole(scene), render::Tracer::fast, 1, false).costs;
+    CHECK(costs.rays == 128 * 72 * 4);
+    CHECK(!costs.shadow_rays);
+    CHECK(!costs.noise_evaluations);
+    CHECK(!costs.seconds);
+    CHECK(costs.peak_memory_bytes);
+    scene.sun.shadows = false;
+    CHECK(predict(scene, whole(scene), render::Tracer::fast, 1, false).costs.shadow_rays == 0.0);
+    scene.image = scene::ImageKind::checker;
+    CHECK(predict(scene, whole(scene), render::Tracer::fast, 1, false).costs.noise_evaluations == 0.0);
+}
+
+TEST_CASE("the plan names what is left out, and the counts agree") {
+    std::mt19937_64 random(3);
+    for (int trial = 0; trial < 60; ++trial) {
+        scene::Scene scene = small_builtin(*scene::find_builtin("terrain"));
+        const auto coin = [&] { return random() % 2 == 0; };
+        scene.film = {.width = 16, .height = 9};
+        scene.camera.far = 20.0;
+        scene.surface.kind = coin() ? scene::SurfaceKind::terrain : scene::SurfaceKind::hyperterrain;
+        scene.surface.octaves = 3;
+        scene.sun.shadows = coin();
+        if (coin()) scene.sun.colour = glm::dvec3(0.0);
+        if (coin()) scene.surface.drift.x = 1.0;
+        if (coin()) scene.shutter.open_s = 0.1;
+        if (coin()) scene.sampling.m = 40;
+        if (coin()) scene.surface.amplitude = 0.0;
+        scene.sampling.estimator = static_cast<scene::EstimatorKind>(random() % 9);
+        const Plan plan = make_plan(scene, render::Tracer::fast);
+        const render::Counters counters = count(scene, whole(scene), render::Tracer::fast);
+        const render::Estimator estimator(render::estimator_settings(scene));
+        CHECK(feature(plan, "shadow rays").needed == (counters.shadow_rays > 0));
+        CHECK((feature(plan, "2-D noise").needed || feature(plan, "3-D noise").needed) ==
+              (counters.noise_evaluations > 0));
+        CHECK(feature(plan, "3-D noise").needed ==
+              (scene.surface.kind == scene::SurfaceKind::hyperterrain && scene.surface.amplitude > 0.0));
+        CHECK(feature(plan, "time samples").needed == !estimator.settings().shutter.instant());
+        CHECK(feature(plan, "shared samples").needed == estimator.shared());
+        for (const Feature& each : plan.features) CHECK(!each.why.empty());
+    }
+}
+
+TEST_CASE("octaves halve as the scene says, and those that do nothing are told so") {
+    scene::Scene scene = small_builtin(*scene::find_builtin("terrain"));
+    scene.surface.gain = 0.25;
+    scene.surface.scale = 3.0;
+    scene.surface.octaves = 32;
+    scene.surface.lacunarity = 1.0;
+    const std::vector<OctavePlan> octaves = make_plan(scene, render::Tracer::fast).octaves;
+    const trace::Field field(scene.surface);
+    REQUIRE(octaves.size() == 32);
+    std::size_t live = 0;
+    for (std::size_t k = 0; k < octaves.size(); ++k) {
+        const OctavePlan& octave = octaves[k];
+        CHECK(octave.wavelength == doctest::Approx(3.0 / 0.2));
+        CHECK(octave.amplitude == doctest::Approx(1.5 * std::pow(0.25, k)));
+        REQUIRE(octave.roles.size() == 1);
+        CHECK(octave.roles.front().to == scene.camera.far);
+        live += octave.roles.front().role == "geometry";
+        CHECK((octave.roles.front().role == "nothing") == (k >= field.octaves().size()));
+    }
+    CHECK(live == field.octaves().size());
+    CHECK(live == 32);  // 4^-31 = 2^-62 still counts
+    scene.surface.gain = 0.1;
+    CHECK(make_plan(scene, render::Tracer::fast).octaves.back().roles.front().role == "nothing");
+    // A pixel at the frame's centre spans 2 tan(fov/2) / width.
+    const double angle = 2.0 * std::tan(0.5 * scene.camera.fov_deg * 3.14159265358979 / 180.0) / scene.film.width;
+    CHECK(octaves.front().pixel_wide_at == doctest::Approx(15.0 / angle).epsilon(0.01));
+}
+
+TEST_CASE("the JSON holds what its help promises") {
+    for (const char* name : {"terrain", "wheel"}) {
+        const Explanation explanation = explain(small_builtin(*scene::find_builtin(name)), true);
+        const auto json = nlohmann::json::parse(explanation_json(explanation));
+        for (const char* key : {"scene", "version", "width", "height", "crop", "estimator", "N", "m", "tracer",
+                                "simd_target", "threads", "features", "octaves", "pilot", "recorded", "costs"}) {
+            CHECK(json.contains(key));
+        }
+        CHECK(json["octaves"].size() == (std::string(name) == "terrain" ? 12 : 0));
+        CHECK(json["recorded"].is_null());
+        CHECK(json["costs"].size() == 9);
+        CHECK(json["costs"]["rays"]["predicted"] == 128 * 72 * 4);
+        CHECK(json["costs"]["rays"]["actual"].is_null());
+        CHECK(json["pilot"]["rays"] == 4096);
+        for (const auto& each : json["features"]) CHECK(each["needed"].is_boolean());
+        CHECK(explanation_text(explanation).find("left out") != std::string::npos);
+    }
+    const Explanation blind = explain(small_builtin(*scene::find_builtin("terrain")), false);
+    const auto json = nlohmann::json::parse(explanation_json(blind));
+    CHECK(json["pilot"].is_null());
+    CHECK(json["costs"]["noise_evaluations"]["predicted"].is_null());
+}
+
+TEST_CASE("records of other settings, of interrupted renders and of other programs are refused") {
+    const ScratchFolder folder;
+    const auto path = folder.path() / "stats.json";
+    const auto record = [](const std::string& mark, double rays) {
+        return nlohmann::json{{"scene", "s"},
+                              {"settings_mark", mark},
+                              {"simd_target", "avx2"},
+                              {"threads", 2},
+                              {"rays", rays},
+                              {"shadow_rays", 30},
+                              {"hits", 40},
+                              {"noise_evaluations", 50},
+                              {"steps", 60},
+                              {"executed_lanes", 70},
+                              {"seconds", 1.5},
+                              {"cpu_seconds", 3.0},
+                              {"peak_memory_bytes", 1000}}
+            .dump();
+    };
+    write_bytes(path, record("abc", 100));
+    const Recorded one = read_recorded(path, "abc", 100);
+    CHECK(one.passes == 1);
+    CHECK(one.costs.noise_evaluations == 50.0);
+    CHECK(one.costs.peak_memory_bytes == 1000.0);
+    write_bytes(path, record("abc", 500));
+    const Recorded five = read_recorded(path, "abc", 100);
+    CHECK(five.passes == 5);
+    CHECK(five.costs.noise_evaluations == 10.0);
+    const auto refused = [&](const char* words) {
+        CHECK_THROWS_WITH_AS(read_recorded(path, "abc", 100), doctest::Contains(words), UsageError);
+    };
+    write_bytes(path, record("abd", 100));
+    refused("another scene");
+    write_bytes(path, record("abc", 99));
+    refused("interrupted");
+    write_bytes(path, record("abc", 150));
+    refused("interrupted");
+    write_bytes(path, "{}");
+    refused("settings_mark");
+    write_bytes(path, R"({"settings_mark": "abc", "scene": "s", "rays": "many"})");
+    refused("'rays'");
+    write_bytes(path, "not JSON");
+    refused("not JSON");
+    CHECK_THROWS_WITH_AS(read_recorded(folder.path() / "none", "abc", 100), doctest::Contains("cannot be read"),
+                         UsageError);
+}
+
+TEST_CASE("a settings mark tells what changes the work, and nothing else") {
+    const scene::Scene scene = small_builtin(*scene::find_builtin("terrain"));
+    const std::string mark = settings_mark(scene, whole(scene), "fast");
+    CHECK(mark.size() == 16);
+    CHECK(mark == settings_mark(scene, whole(scene), "fast"));
+    CHECK(mark != settings_mark(scene, whole(scene), "reference"));
+    CHECK(mark != settings_mark(scene, {0, 0, 1, 1}, "fast"));
+    scene::Scene other = scene;
+    other.sampling.seed += 1;
+    CHECK(mark != settings_mark(other, whole(scene), "fast"));
+    other = scene;
+    other.title = "another";
+    other.film.exposure = 1.0;
+    CHECK(mark == settings_mark(other, whole(scene), "fast"));
+}

@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# What `strata explain` promises on the command line, shown with tiny pictures.
+set -u
+
+# shellcheck source=tests/tools/cli_checks.sh
+. "${BASH_SOURCE[0]%/*}/cli_checks.sh"
+
+tiny=(--size 32x18 -N 2)
+
+check_plan() {
+    run explain terrain "${tiny[@]}"
+    expect_match 'a plan tells what is needed, what is left out, the octaves and the costs' "$status: $output" \
+        '0: terrain  32x18*needed *2-D noise*left out *3-D noise*octave *12 *cost *noise_evaluations*a pilot of*'
+    expect 'a plan fits on a screen' "$(($(wc -l <<<"$output") <= 60)) $(awk 'length > 120' <<<"$output" | wc -l)" '1 0'
+    run explain terrain "${tiny[@]}" --set sun.shadows=false
+    expect_match 'what is switched off is left out, with the key that did it' "$output" '*left out*shadow rays *sun.shadows is false*'
+    run explain terrain "${tiny[@]}" --set shutter.open_s=0.02
+    expect_match 'an open shutter over a scene at rest draws no times' "$output" '*left out*time samples *nothing moves*'
+    run explain isosurface "${tiny[@]}"
+    expect_match 'what moves is needed' "$output" '*time samples *something moves*left out*'
+    run explain wheel "${tiny[@]}" -m 40
+    expect_match 'orders beyond the table are told' "$output" '*exact inverse *microseconds*inverse table *m = 40 is above 32*'
+    run explain terrain --no-pilot
+    expect_match 'without a pilot what takes one is not told' "$status: $output" '0: *noise_evaluations *-*No pilot*'
+    run explain terrain "${tiny[@]}" --quiet
+    expect 'quiet is quiet' "$status: $output" '0: '
+}
+
+check_stats() {
+    local scene
+    for scene in terrain isosurface zoneplate; do
+        "$strata" render "$scene" "${tiny[@]}" --quiet -o a.exr -o a.png --stats "$scene.json"
+        run explain "$scene" "${tiny[@]}" --stats "$scene.json" --json plan.json
+        expect_match "the actual costs of $scene stand beside the predicted ones" "$status: $output" \
+            '0: *predicted *actual *predicted/actual*Actual: *'
+        expect "memory of $scene is predicted within a factor of 1.5" \
+            "$(awk '/^peak_memory/ { print ($NF > 0.667 && $NF < 1.5) }' <<<"$output")" 1
+        expect "rays of $scene are exact" "$(awk '/^rays/ { print $NF }' <<<"$output")" 1.00
+    done
+    run explain a.exr --stats zoneplate.json
+    expect_match 'a picture that strata wrote is explained with its settings' "$status: $output" '0: *zoneplate*'
+    refuses 'counts of another scene are refused' 2 '*terrain.json: of a render of another scene*' \
+        explain isosurface "${tiny[@]}" --stats terrain.json
+    refuses 'counts with another N are refused' 2 '*another setting*' explain terrain --size 32x18 -N 3 --stats terrain.json
+    refuses 'counts of another crop are refused' 2 '*crop*' explain terrain "${tiny[@]}" --crop 0,0,4,4 --stats terrain.json
+    refuses 'counts of another tracer are refused' 2 '*tracer*' explain terrain "${tiny[@]}" --tracer reference --stats terrain.json
+    refuses 'a missing record is refused' 2 '*none.json: cannot be read*' explain terrain --stats none.json
+    refuses 'a picture is no record' 2 '*a.png: not JSON*' explain terrain --stats a.png
+}
+
+check_json() {
+    "$strata" explain terrain "${tiny[@]}" --json plan.json --quiet --threads 1
+    local key missing=
+    for key in scene version width height crop estimator N m tracer simd_target threads features octaves pilot recorded costs; do
+        grep -q "^  \"$key\": " plan.json || missing+=" $key"
+    done
+    expect 'the JSON has every key that the help names' "$missing" ''
+    "$strata" explain terrain "${tiny[@]}" --json again.json --quiet --threads 1
+    expect 'but for times and memory equal plans are equal files' \
+        "$(diff <(awk '/_seconds|"seconds|memory/ { skip = 2 } skip-- <= 0' plan.json) \
+            <(awk '/_seconds|"seconds|memory/ { skip = 2 } skip-- <= 0' again.json))" ''
+    refuses 'a folder that is not there is refused' '[12]' '*nowhere/plan.json*' explain terrain --json nowhere/plan.json
+    "$strata" scenes terrain >mine.toml
+    cp mine.toml kept.toml
+    refuses 'the scene itself is not overwritten' 2 '*mine.toml*a file of its own*' explain mine.toml --json mine.toml
+    expect_same_file 'the scene is as it was' mine.toml kept.toml
+}
+
+check_refusals() {
+    refuses 'an unknown tracer is refused' 2 '*--tracer quick: allowed: fast, reference*' explain terrain --tracer quick
+    refuses 'an unknown SIMD target is refused' 2 '*--simd mmx*' explain terrain --simd mmx
+    refuses 'too many threads are refused' 2 '*--threads 5000*' explain terrain --threads 5000
+    refuses 'a crop outside of the frame is refused' 2 '*--crop 0,0,33,4*' explain terrain "${tiny[@]}" --crop 0,0,33,4
+    refuses 'an unknown scene gets the nearest' 2 "*did you mean 'terrain'*" explain terain
+    refuses 'an unknown option gets the nearest' 2 "*did you mean '--no-pilot'*" explain terrain --no-pilo
+    expect 'nothing was written' "$(ls -A)" ''
+}
+
+run_groups check_plan check_stats check_json check_refusals
