@@ -1,0 +1,248 @@
+// What a scene pays for features that it does not use, where counts cannot show it: CPU time, one thread. The two sides
+// of a pair take turns, so that a shared machine slows both; `ratio` is the median of the turns' ratios, second over
+// first, `low` and `high` the quartiles, `first_ns` and `second_ns` the least nanoseconds a ray.
+//
+//   bare/...      the renderer, for a scene without motion, shadows and haze, over a loop written out here that has
+//                 never heard of them
+//   unused/...    a scene that names the feature where it does nothing, over one that does not name it
+//   used/...      the feature at work, over the same scene without: what leaving it out saves
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <ctime>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "shaders_cpu/sky.h"
+#include "shaders_cpu/terrain_material.h"
+#include "src/render/make_image.h"
+#include "src/render/render.h"
+#include "src/scene/builtin.h"
+#include "src/scene/toml_reader.h"
+
+namespace {
+
+using namespace strata;
+
+constexpr int kWidth = 192, kHeight = 108;
+
+double cpu_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double timed(const std::function<void()>& work) {
+    const double start = cpu_seconds();
+    work();
+    return cpu_seconds() - start;
+}
+
+double quantile(std::vector<double> values, double q) {
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
+}
+
+void run_pair(benchmark::State& state, double rays, const std::function<void()>& first,
+              const std::function<void()>& second) {
+    std::vector<double> first_s, second_s, ratios;
+    bool first_leads = true;
+    for (auto _ : state) {
+        if (!first_leads) second_s.push_back(timed(second));
+        first_s.push_back(timed(first));
+        if (first_leads) second_s.push_back(timed(second));
+        first_leads = !first_leads;
+        ratios.push_back(second_s.back() / first_s.back());
+    }
+    state.counters["ratio"] = quantile(ratios, 0.5);
+    state.counters["low"] = quantile(ratios, 0.25);
+    state.counters["high"] = quantile(ratios, 0.75);
+    state.counters["first_ns"] = 1e9 * quantile(first_s, 0.0) / rays;
+    state.counters["second_ns"] = 1e9 * quantile(second_s, 0.0) / rays;
+}
+
+scene::Scene builtin(const char* name) {
+    scene::Scene scene = scene::read_scene(scene::find_builtin(name)->text, name);
+    scene.film.width = kWidth;
+    scene.film.height = kHeight;
+    scene.sampling.N = 2;
+    return scene;
+}
+
+scene::Scene plain(const char* name) {
+    scene::Scene scene = builtin(name);
+    scene.sun.shadows = false;
+    scene.sky.haze_distance = 0.0;
+    return scene;
+}
+
+// Camera ray, first hit, normal, colour: for a surface, a camera and a sun at rest, no shadows and no haze.
+class BareImage final : public render::ImageFunction {
+  public:
+    explicit BareImage(const scene::Scene& scene)
+        : scene_(scene),
+          field_(scene.surface),
+          fast_(field_),
+          placement_(scene.surface),
+          camera_(scene.camera, scene.film) {}
+    BareImage(const BareImage&) = delete;
+    BareImage& operator=(const BareImage&) = delete;
+
+    void evaluate(const render::SampleBatch& samples, std::span<glm::vec3> radiance,
+                  render::Counters& counters) const override {
+        constexpr std::size_t kChunk = 1024;
+        for (std::size_t begin = 0; begin < samples.u.size(); begin += kChunk) {
+            const std::size_t count = std::min(kChunk, samples.u.size() - begin);
+            evaluate_chunk(samples.u.subspan(begin, count), samples.v.subspan(begin, count),
+                           radiance.subspan(begin, count), counters);
+        }
+    }
+
+  private:
+    void evaluate_chunk(std::span<const double> u, std::span<const double> v, std::span<glm::vec3> radiance,
+                        render::Counters& counters) const {
+        const glm::dmat3 orientation = placement_.resting_orientation();
+        const glm::dvec3 sun = trace::Placement::direction_to_local(orientation, glm::normalize(scene_.sun.direction));
+        std::vector<trace::Ray> rays(u.size());
+        for (std::size_t i = 0; i < u.size(); ++i) {
+            const trace::CameraRay seen = camera_.ray(u[i], v[i]);
+            rays[i] = placement_.to_local(orientation, {.origin = camera_.position(),
+                                                        .direction = seen.direction,
+                                                        .noise_shift = {},
+                                                        .limit = scene_.camera.far,
+                                                        .delta0 = 0.0,
+                                                        .delta_slope = scene_.sampling.tolerance * seen.pixel_angle});
+        }
+        std::vector<trace::Hit> hits(u.size());
+        trace::TraceCounters traced;
+        fast_.trace(rays, hits, traced);
+        std::vector<glm::dvec3> x;
+        std::vector<std::size_t> owner;
+        for (std::size_t i = 0; i < u.size(); ++i) {
+            if (hits[i].state == trace::HitState::miss) {
+                radiance[i] = shaders::sky_radiance(scene_.sky, rays[i].direction);
+            } else {
+                x.push_back(rays[i].origin + hits[i].s * rays[i].direction);
+                owner.push_back(i);
+            }
+        }
+        std::vector<glm::vec3> gradient(x.size());
+        fast_.gradients(x, gradient, traced);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const glm::dvec3 normal(glm::normalize(gradient[i]));
+            radiance[owner[i]] =
+                shaders::shade(scene_.material, scene_.sun, scene_.sky,
+                               {.height = x[i].y, .up_dot_normal = normal.y, .n_dot_sun = glm::dot(normal, sun)});
+        }
+        counters.hits += x.size();
+        counters.noise_evaluations += traced.noise_evaluations;
+    }
+
+    scene::Scene scene_;
+    trace::Field field_;
+    trace::FastTracer fast_;
+    trace::Placement placement_;
+    trace::Camera camera_;
+};
+
+struct Side {
+    std::unique_ptr<render::ImageFunction> image;
+    render::Estimator estimator;
+
+    explicit Side(const scene::Scene& scene, std::unique_ptr<render::ImageFunction> other = nullptr)
+        : image(other ? std::move(other) : render::make_image(scene)), estimator(render::estimator_settings(scene)) {}
+
+    render::RenderResult render() const {
+        render::RenderOptions options;
+        options.threads = 1;
+        return render::render(*image, estimator, {0, 0, kWidth, kHeight}, options);
+    }
+};
+
+// Same work must mean same counts: else the pair does not compare what it says.
+bool same_counts(const Side& first, const Side& second) {
+    const render::Counters a = first.render().counters, b = second.render().counters;
+    return a.hits == b.hits && a.noise_evaluations == b.noise_evaluations;
+}
+
+void compare(benchmark::State& state, const Side& first, const Side& second, bool is_same_work) {
+    if (is_same_work && !same_counts(first, second)) return state.SkipWithError("the counts differ");
+    const double rays = static_cast<double>(first.render().counters.rays);
+    run_pair(
+        state, rays, [&] { benchmark::DoNotOptimize(first.render()); },
+        [&] { benchmark::DoNotOptimize(second.render()); });
+}
+
+void bare(benchmark::State& state, const char* name) {
+    const scene::Scene scene = plain(name);
+    compare(state, Side(scene, std::make_unique<BareImage>(scene)), Side(scene), true);
+}
+
+using Change = std::function<void(scene::Scene&)>;
+
+void add_pair(
+    const std::string& name, const char* scene_name, bool is_same_work, const Change& change,
+    const Change& prepare = [](scene::Scene&) {}) {
+    benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+        scene::Scene without = plain(scene_name);
+        prepare(without);
+        scene::Scene with = without;
+        change(with);
+        compare(state, Side(without), Side(with), is_same_work);
+    })->Unit(benchmark::kMillisecond);
+}
+
+// A terrain's noise in three dimensions rather than two, by the evaluation: the surfaces differ.
+void dimensions(benchmark::State& state) {
+    const scene::Scene flat = plain("terrain");
+    scene::Scene space = flat;
+    space.surface.kind = scene::SurfaceKind::hyperterrain;
+    const Side first(flat), second(space);
+    const double a = static_cast<double>(first.render().counters.noise_evaluations);
+    const double b = static_cast<double>(second.render().counters.noise_evaluations);
+    std::vector<double> ratios;
+    for (auto _ : state) {
+        const double first_s = timed([&] { benchmark::DoNotOptimize(first.render()); });
+        ratios.push_back(timed([&] { benchmark::DoNotOptimize(second.render()); }) / b / (first_s / a));
+    }
+    state.counters["ratio"] = quantile(ratios, 0.5);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    for (const char* name : {"terrain", "hyperterrain"}) {
+        benchmark::RegisterBenchmark((std::string("bare/") + name).c_str(), [name](benchmark::State& state) {
+            bare(state, name);
+        })->Unit(benchmark::kMillisecond);
+    }
+    add_pair("unused/open_shutter", "terrain", true, [](scene::Scene& scene) { scene.shutter.open_s = 0.02; });
+    add_pair("unused/resting_camera_keys", "terrain", true, [](scene::Scene& scene) {
+        scene.camera.keys = {{.time_s = 0.0}, {.time_s = 1.0, .position = glm::dvec3(9.0, 9.0, 9.0)}};
+    });
+    add_pair("unused/spin_at_an_instant", "hyperterrain", true,
+             [](scene::Scene& scene) { scene.surface.spin_deg_per_s = 5.0; });
+    add_pair("unused/drift_along_y", "terrain", true, [](scene::Scene& scene) { scene.surface.drift.y = 1.0; });
+    add_pair("unused/shadows_of_a_black_sun", "terrain", true, [](scene::Scene& scene) {
+        scene.sun.shadows = true;
+        scene.sun.colour = glm::dvec3(0.0);
+    });
+    add_pair(
+        "unused/octaves_below_the_last_bit", "hyperterrain", true,
+        [](scene::Scene& scene) { scene.surface.octaves = 32; },
+        [](scene::Scene& scene) { scene.surface.gain = 1e-3; });
+    add_pair("used/drift", "hyperterrain", true, [](scene::Scene& scene) { scene.surface.drift.x = 1.0; });
+    add_pair("used/haze", "terrain", true, [](scene::Scene& scene) { scene.sky.haze_distance = 100.0; });
+    add_pair("used/shadows", "terrain", false, [](scene::Scene& scene) { scene.sun.shadows = true; });
+    add_pair("used/time_samples", "hyperterrain", false, [](scene::Scene& scene) {
+        scene.shutter.open_s = 0.02;
+        scene.surface.spin_deg_per_s = 5.0;
+    });
+    benchmark::RegisterBenchmark("used/third_dimension", dimensions)->Unit(benchmark::kMillisecond);
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}
