@@ -6,6 +6,7 @@
 #include "noise/simd_target.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
+#include "src/render/progressive.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
 #include "tools/explain/explanation.h"
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct ExplainRequest {
     SceneArgument scene;
-    std::string crop, tracer, simd, json, statistics, threads = "0";
+    std::string crop, tracer, simd, json, statistics, passes, threads = "0";
     bool no_pilot = false, quiet = false;
 };
 
@@ -65,13 +66,15 @@ int explain_command(const ExplainRequest& request) {
     explanation.simd_target = noise::simd_target();
     explanation.name = loaded.name;
     explanation.scene = loaded.scene;
+    const std::string passes_text = !request.passes.empty() ? request.passes : loaded.passes.value_or("1");
+    const int passes = parse_integer("--passes", passes_text, 1, render::kMostPasses);
     check_json(request, loaded);
     const auto known = predict(loaded.scene, explanation.window, tracer, threads, false);
     if (!request.statistics.empty()) {
         const std::string mark = settings_mark(loaded.scene, explanation.window, explanation.tracer);
         explanation.recorded = read_recorded(request.statistics, mark, known.costs.rays);
     }
-    explanation.plan = make_plan(loaded.scene, tracer);
+    explanation.plan = make_plan(loaded.scene, tracer, passes);
     explanation.prediction =
         request.no_pilot ? known : predict(loaded.scene, explanation.window, tracer, threads, true);
     if (!request.json.empty()) {
@@ -101,6 +104,8 @@ void add_explain_command(CLI::App& program, int& exit_code) {
         ->add_option("--simd", request->simd,
                      "As for render: avx512, avx2, sse4 or scalar; default the best that is here")
         ->type_name("TARGET");
+    command->add_option("--passes", request->passes, "As for render: average so many passes; default 1")
+        ->type_name("K");
     command->add_flag("--no-pilot", request->no_pilot, "Cast no rays: tell only what is known without");
     command
         ->add_option(
@@ -121,8 +126,8 @@ void add_explain_command(CLI::App& program, int& exit_code) {
         "role geometry (hits and normals), normal or nothing; below_tolerance_from is null for isosurfaces;\n"
         "pilot {rays, share, cpu_seconds} or null; recorded {passes, threads, simd_target} or null, of --stats;\n"
         "costs {rays, shadow_rays, hits, noise_evaluations, executed_lanes, steps, cpu_seconds, seconds,\n"
-        "peak_memory_bytes}, each {predicted, actual, ratio}, null where not known. Of several passes actual is one's "
-        "share.\n"
+        "peak_memory_bytes}, each {predicted, actual, ratio}, null where not known. Of several "
+        "passes costs are those of one.\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, scene or --stats.");
     command->callback([request, &exit_code] { exit_code = explain_command(*request); });
 }

@@ -29,7 +29,7 @@ struct RunStatistics {
     std::string simd_target;
     std::uint64_t peak_memory_bytes = 0;
     std::string scene;
-    std::string settings_mark{};  // settings_mark.h; empty: not written
+    std::string settings_mark{};           // settings_mark.h; empty: not written
     std::optional<PassStatistics> passes;  // empty: a plain render
 };
 

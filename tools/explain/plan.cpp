@@ -129,7 +129,7 @@ void add_estimator(FeatureList& list, const scene::Scene& scene) {
 
 }  // namespace
 
-Plan make_plan(const scene::Scene& scene, render::Tracer tracer) {
+Plan make_plan(const scene::Scene& scene, render::Tracer tracer, int passes) {
     FeatureList list;
     Plan plan;
     add_motion(list, scene);
@@ -142,6 +142,9 @@ Plan make_plan(const scene::Scene& scene, render::Tracer tracer) {
                  fmt::format("the picture is an image-plane pattern: {}", scene::name_of(scene.image)));
     }
     add_estimator(list, scene);
+    list.add("more passes", passes > 1,
+             passes > 1 ? fmt::format("{} passes are averaged; the costs below are those of one", passes)
+                        : "one pass: nothing is summed up between passes");
     list.add("other channels", false, "pictures hold colour alone: no depth, normals or other AOVs");
     plan.features = list.take();
     return plan;

@@ -40,7 +40,7 @@ struct Plan {
     std::string octaves_note;         // empty for these
 };
 
-// Of a valid scene.
-Plan make_plan(const scene::Scene& scene, render::Tracer tracer);
+// Of a valid scene. passes: of N*N samples each, to be averaged.
+Plan make_plan(const scene::Scene& scene, render::Tracer tracer, int passes = 1);
 
 }  // namespace strata::tools
