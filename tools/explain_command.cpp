@@ -67,16 +67,17 @@ int explain_command(const ExplainRequest& request) {
     explanation.name = loaded.name;
     explanation.scene = loaded.scene;
     const std::string passes_text = !request.passes.empty() ? request.passes : loaded.passes.value_or("1");
-    const int passes = parse_integer("--passes", passes_text, 1, render::kMostPasses);
+    int passes = parse_integer("--passes", passes_text, 1, render::kMostPasses);
     check_json(request, loaded);
-    const auto known = predict(loaded.scene, explanation.window, tracer, threads, false);
     if (!request.statistics.empty()) {
         const std::string mark = settings_mark(loaded.scene, explanation.window, explanation.tracer);
-        explanation.recorded = read_recorded(request.statistics, mark, known.costs.rays);
+        explanation.recorded = read_recorded(request.statistics, mark, count_rays(loaded.scene, explanation.window));
+        if (request.passes.empty()) passes = static_cast<int>(explanation.recorded->passes);
     }
     explanation.plan = make_plan(loaded.scene, tracer, passes);
     explanation.prediction =
-        request.no_pilot ? known : predict(loaded.scene, explanation.window, tracer, threads, true);
+        predict(loaded.scene, explanation.window,
+                {.tracer = tracer, .threads = threads, .passes = passes, .with_pilot = !request.no_pilot});
     if (!request.json.empty()) {
         const std::string text = explanation_json(explanation);
         image::replace_file(request.json, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
@@ -116,7 +117,8 @@ void add_explain_command(CLI::App& program, int& exit_code) {
     command->add_flag("--quiet", request->quiet, "No text");
     command->footer(
         "A pilot casts 1 % of the rays - at least 4096, or all; at most 262144, or 16384 of the reference tracer's -\n"
-        "spread over the frame, on one thread. Counts are the same in every run; times are not.\n"
+        "spread over the frame, on one thread. Counts are the same in every run; times are not;\n"
+        "`seconds` supposes a core for every thread.\n"
         "Distances and wavelengths are in world units; a pixel is that at the frame's centre, mid-shutter. `below\n"
         "tolerance from`: farther away the octave raises or lowers the surface by less than a hit's tolerance.\n"
         "JSON: scene, version, width, height, crop [x0,y0,x1,y1], estimator, N, m, tracer, simd_target, threads;\n"

@@ -53,7 +53,8 @@ struct Worst {
 };
 
 Worst worst_prediction(const scene::Scene& scene, const render::Window& window, render::Tracer tracer) {
-    const Prediction prediction = predict(scene, window, tracer, 1, true);
+    const Prediction prediction =
+        predict(scene, window, {.tracer = tracer, .threads = 1, .passes = 1, .with_pilot = true});
     const render::Counters actual = count(scene, window, tracer);
     CHECK(prediction.costs.rays == actual.rays);
     Worst worst;
@@ -78,7 +79,9 @@ Explanation explain(const scene::Scene& scene, bool with_pilot) {
     explanation.window = whole(scene);
     explanation.tracer = "fast";
     explanation.plan = make_plan(scene, render::Tracer::fast);
-    explanation.prediction = predict(scene, explanation.window, render::Tracer::fast, 1, with_pilot);
+    explanation.prediction =
+        predict(scene, explanation.window,
+                {.tracer = render::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = with_pilot});
     return explanation;
 }
 
@@ -136,8 +139,12 @@ TEST_CASE("a pilot takes a hundredth of the rays, no fewer than its least and no
 
 TEST_CASE("predicted counts are the same in every run") {
     const scene::Scene scene = small_builtin(*scene::find_builtin("isosurface"));
-    const Costs a = predict(scene, whole(scene), render::Tracer::fast, 1, true).costs;
-    const Costs b = predict(scene, whole(scene), render::Tracer::fast, 8, true).costs;
+    const Costs a =
+        predict(scene, whole(scene), {.tracer = render::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = true})
+            .costs;
+    const Costs b =
+        predict(scene, whole(scene), {.tracer = render::Tracer::fast, .threads = 8, .passes = 1, .with_pilot = true})
+            .costs;
     CHECK(a.noise_evaluations == b.noise_evaluations);
     CHECK(a.shadow_rays == b.shadow_rays);
     CHECK(a.steps == b.steps);
@@ -145,16 +152,20 @@ TEST_CASE("predicted counts are the same in every run") {
 
 TEST_CASE("without a pilot only what is certain is told") {
     scene::Scene scene = small_builtin(*scene::find_builtin("terrain"));
-    const Costs costs = predict(scene, whole(scene), render::Tracer::fast, 1, false).costs;
+    const Costs costs =
+        predict(scene, whole(scene), {.tracer = render::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = false})
+            .costs;
     CHECK(costs.rays == 128 * 72 * 4);
     CHECK(!costs.shadow_rays);
     CHECK(!costs.noise_evaluations);
     CHECK(!costs.seconds);
     CHECK(costs.peak_memory_bytes);
     scene.sun.shadows = false;
-    CHECK(predict(scene, whole(scene), render::Tracer::fast, 1, false).costs.shadow_rays == 0.0);
+    CHECK(predict(scene, whole(scene), {.tracer = render::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = false})
+              .costs.shadow_rays == 0.0);
     scene.image = scene::ImageKind::checker;
-    CHECK(predict(scene, whole(scene), render::Tracer::fast, 1, false).costs.noise_evaluations == 0.0);
+    CHECK(predict(scene, whole(scene), {.tracer = render::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = false})
+              .costs.noise_evaluations == 0.0);
 }
 
 TEST_CASE("the plan names what is left out, and the counts agree") {

@@ -39,6 +39,12 @@ check_stats() {
     done
     run explain a.exr --stats zoneplate.json
     expect_match 'a picture that strata wrote is explained with its settings' "$status: $output" '0: *zoneplate*'
+    "$strata" render terrain "${tiny[@]}" --passes 3 --quiet -o three.exr --stats three.json
+    run explain terrain "${tiny[@]}" --stats three.json
+    expect_match 'counts of several passes are those of one' "$status: $output" '0: *3 passes are averaged*Actual: *one of 3 passes*'
+    expect 'rays of a pass are exact' "$(awk '/^rays/ { print $NF }' <<<"$output")" 1.00
+    run explain three.exr --no-pilot
+    expect_match 'a picture tells its passes' "$status: $output" '0: *more passes *3 passes*'
     refuses 'counts of another scene are refused' 2 '*terrain.json: of a render of another scene*' \
         explain isosurface "${tiny[@]}" --stats terrain.json
     refuses 'counts with another N are refused' 2 '*another setting*' explain terrain --size 32x18 -N 3 --stats terrain.json

@@ -21,15 +21,15 @@ render::Window owners_of(const render::Window& window, const render::Estimator& 
 }
 
 // The program with its libraries, of which this process has as many; the film and the picture beside it; samples and
-// rays on their way in each thread; and the runs of shared samples.
-double expected_memory(const render::Window& window, const render::Estimator& estimator, int threads) {
-    constexpr double kFilmBytes = 13, kPictureBytes = 12;  // a pixel
+// rays on their way in each thread; the runs of shared samples; of several passes their sum and one more film.
+double expected_memory(const render::Window& window, const render::Estimator& estimator, int threads, int passes) {
+    constexpr double kFilmBytes = 13, kPictureBytes = 12, kSumBytes = 24;  // a pixel
     constexpr double kWorkerBytes = 1.5e6, kSharedBytes = 8.4e6;
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     const double pixels = 1.0 * window.width() * window.height();
     return 1024.0 * static_cast<double>(usage.ru_maxrss) + (kFilmBytes + kPictureBytes) * pixels +
-           kWorkerBytes * threads + (estimator.shared() ? kSharedBytes : 0.0);
+           (passes > 1 ? kSumBytes * pixels : 0.0) + kWorkerBytes * threads + (estimator.shared() ? kSharedBytes : 0.0);
 }
 
 // Counts that are known to be zero.
@@ -62,23 +62,29 @@ std::uint64_t pilot_rays(std::uint64_t rays, render::Tracer tracer) {
     return std::min(rays, std::clamp(share, kLeastPilotRays, most));
 }
 
-Prediction predict(const scene::Scene& scene, const render::Window& window, render::Tracer tracer, int threads,
-                   bool with_pilot) {
-    const render::EstimatorSettings settings = render::estimator_settings(scene);
-    const render::Estimator estimator(settings);
+std::uint64_t count_rays(const scene::Scene& scene, const render::Window& window) {
+    const render::Estimator estimator(render::estimator_settings(scene));
     const render::Window owners = owners_of(window, estimator);
+    return std::uint64_t{1} * static_cast<std::uint64_t>(owners.width()) * static_cast<std::uint64_t>(owners.height()) *
+           static_cast<std::uint64_t>(estimator.sample_count());
+}
+
+Prediction predict(const scene::Scene& scene, const render::Window& window, const PredictionSettings& settings) {
+    const render::EstimatorSettings sampling = render::estimator_settings(scene);
+    const render::Estimator estimator(sampling);
     Prediction prediction;
-    prediction.threads = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    prediction.threads =
+        settings.threads > 0 ? settings.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     Costs& costs = prediction.costs;
-    costs.rays = std::uint64_t{1} * static_cast<std::uint64_t>(owners.width()) *
-                 static_cast<std::uint64_t>(owners.height()) * static_cast<std::uint64_t>(estimator.sample_count());
+    costs.rays = count_rays(scene, window);
     leave_out(scene, costs);
-    costs.peak_memory_bytes = expected_memory(window, estimator, prediction.threads);
-    if (with_pilot) {
-        const auto image = render::make_image(scene, tracer);
-        const PilotRun run = run_pilot(*image, settings, owners, pilot_rays(costs.rays, tracer));
+    costs.peak_memory_bytes = expected_memory(window, estimator, prediction.threads, settings.passes);
+    if (settings.with_pilot) {
+        const auto image = render::make_image(scene, settings.tracer);
+        const PilotRun run =
+            run_pilot(*image, sampling, owners_of(window, estimator), pilot_rays(costs.rays, settings.tracer));
         prediction.pilot = Pilot{run.counters.rays, run.cpu_seconds};
-        extrapolate(run, estimator_seconds_a_ray(settings), prediction.threads, costs);
+        extrapolate(run, estimator_seconds_a_ray(sampling), prediction.threads, costs);
     }
     return prediction;
 }

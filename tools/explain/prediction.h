@@ -40,9 +40,17 @@ inline constexpr std::uint64_t kMostReferenceRays = 1u << 14;
 
 std::uint64_t pilot_rays(std::uint64_t rays, render::Tracer tracer);
 
-// Of rendering the window of a valid scene's frame once. threads: 0 as many as the machine has. Counts are the same in
-// every run, but for those of idle lanes; times are not.
-Prediction predict(const scene::Scene& scene, const render::Window& window, render::Tracer tracer, int threads,
-                   bool with_pilot);
+// Rays of one pass over the window of a valid scene's frame, exactly.
+std::uint64_t count_rays(const scene::Scene& scene, const render::Window& window);
+
+struct PredictionSettings {
+    render::Tracer tracer = render::Tracer::fast;
+    int threads = 0;  // 0: as many as the machine has
+    int passes = 1;   // costs are those of one, but memory
+    bool with_pilot = true;
+};
+
+// Of rendering that window. Counts are the same in every run, times are not.
+Prediction predict(const scene::Scene& scene, const render::Window& window, const PredictionSettings& settings);
 
 }  // namespace strata::tools
