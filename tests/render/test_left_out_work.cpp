@@ -20,7 +20,7 @@ constexpr Window kFrame{0, 0, 32, 18};
 scene::Scene small_scene(SurfaceKind kind) {
     scene::Scene scene;
     scene.film = {.width = 32, .height = 18};
-    scene.sampling.N = 2;
+    scene.sampling = {.estimator = scene::EstimatorKind::stratified, .N = 2};
     scene.surface.kind = kind;
     scene.surface.octaves = 5;
     scene.surface.radius = 1.0;

@@ -152,6 +152,7 @@ TEST_CASE("predicted counts are the same in every run") {
 
 TEST_CASE("without a pilot only what is certain is told") {
     scene::Scene scene = small_builtin(*scene::find_builtin("terrain"));
+    scene.sampling.estimator = scene::EstimatorKind::stratified;
     const Costs costs =
         predict(scene, whole(scene), {.tracer = render::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = false})
             .costs;
@@ -228,7 +229,9 @@ TEST_CASE("octaves halve as the scene says, and those that do nothing are told s
 
 TEST_CASE("the JSON holds what its help promises") {
     for (const char* name : {"terrain", "wheel"}) {
-        const Explanation explanation = explain(small_builtin(*scene::find_builtin(name)), true);
+        scene::Scene scene = small_builtin(*scene::find_builtin(name));
+        scene.sampling.estimator = scene::EstimatorKind::stratified;
+        const Explanation explanation = explain(scene, true);
         const auto json = nlohmann::json::parse(explanation_json(explanation));
         for (const char* key : {"scene", "version", "width", "height", "crop", "estimator", "N", "m", "tracer",
                                 "simd_target", "threads", "features", "octaves", "pilot", "recorded", "costs"}) {

@@ -68,6 +68,7 @@ scene::Scene builtin(const char* name) {
     scene.film.width = kWidth;
     scene.film.height = kHeight;
     scene.sampling.N = 2;
+    scene.sampling.estimator = scene::EstimatorKind::stratified;
     return scene;
 }
 
