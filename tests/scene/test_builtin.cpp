@@ -73,11 +73,12 @@ TEST_CASE("the scenes of a kind of surface or picture are named after it") {
     CHECK(scene_named("constant").image == ImageKind::constant);
 }
 
-TEST_CASE("the default scene is a still of at least 1280 by 720 by the paper's estimator") {
+TEST_CASE("the default scene is a still of at least 1280 by 720 by the default estimator") {
     const Scene scene = scene_named("terrain");
     CHECK(scene.film.width >= 1280);
     CHECK(scene.film.height >= 720);
-    CHECK(scene.sampling.estimator == EstimatorKind::stratified);
+    CHECK(scene.sampling.estimator == Sampling().estimator);
+    CHECK(scene.sampling.estimator == EstimatorKind::shared_sobol);
     CHECK(scene.sampling.N == 4);
     CHECK(scene.sampling.m == 4);
     CHECK(scene.shutter.open_s == 0.0);

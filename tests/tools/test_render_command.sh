@@ -87,7 +87,7 @@ check_outputs() {
         'my scene v1.2.exr'$'\n''my scene v1.2.png'$'\n''my scene v1.2.toml'
     expect_match 'the summary tells what was written, time, rays and memory' "$status: $output" \
         '0: *wrote *.exr*wrote *.png*time *rays *memory *'
-    run render "${tiny[@]}" --crop 3,2,9,7 -o twice.png -o ./twice.png -o t.tif -o t.jpg -o t.exr --stats s.json
+    run render "${tiny[@]}" --estimator stratified --crop 3,2,9,7 -o twice.png -o ./twice.png -o t.tif -o t.jpg -o t.exr --stats s.json
     expect '--quiet prints nothing' "$status: $output" '0: '
     expect 'each output is there' "$(echo t*)" 't.exr t.jpg t.tif twice.png'
     local missing='' key
@@ -165,7 +165,7 @@ check_probes() {
         "$(grep -o '"hit":[a-z]*' <<<"$lines" | tr '\n' ' ')" '"hit":true "hit":false "hit":true '
     lines=$("$strata" probe ray <<<'0 0 0 0 0 0' 2>&1)
     expect_match 'a ray without a direction is refused' "$lines" "*stdin:1: '0 0 0 0 0 0'*direction*"
-    refuses 'a sample beyond the last is refused' 2 '*--sample 16: allowed*0 to 15*' probe ray --pixel 0,0 --sample 16
+    refuses 'a sample beyond the last is refused' 2 '*--sample 16: allowed*0 to 15*' probe ray --estimator stratified --pixel 0,0 --sample 16
     refuses 'a pixel outside the frame is refused' 2 '*--pixel 16,0: allowed*x < 16*' probe ray --size 16x9 --pixel 16,0
 }
 
