@@ -100,6 +100,7 @@ std::string assignment_label(std::string_view assignment) {
 
 std::string label_of(const std::vector<std::string>& assignments) {
     std::vector<std::string> parts;
+    parts.reserve(assignments.size());
     for (const std::string& assignment : assignments) parts.push_back(assignment_label(assignment));
     return parts.empty() ? "as the scene says" : fmt::format("{}", fmt::join(parts, ", "));
 }

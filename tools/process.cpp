@@ -67,6 +67,7 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments, 
     std::vector<std::string> words{program.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
 
@@ -96,7 +97,7 @@ fs::path find_program(const std::string& name, const std::string& debian_package
     std::string_view folders = path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin";
     while (!folders.empty()) {
         const std::size_t end = std::min(folders.find(':'), folders.size());
-        const fs::path candidate = fs::path(folders.substr(0, end)) / name;
+        fs::path candidate = fs::path(folders.substr(0, end)) / name;
         if (::access(candidate.c_str(), X_OK) == 0 && fs::is_regular_file(candidate)) return candidate;
         folders.remove_prefix(std::min(end + 1, folders.size()));
     }

@@ -24,6 +24,7 @@ struct AxisTexts {
 
 std::vector<AxisOption> with_origin(const char* origin, const std::vector<std::string>& texts) {
     std::vector<AxisOption> options;
+    options.reserve(texts.size());
     for (const std::string& text : texts) options.push_back({origin, text});
     return options;
 }

@@ -23,6 +23,7 @@ constexpr std::array<const char*, 3> kFontFolders{
 
 fs::path font_file(Weight weight) {
     std::vector<fs::path> candidates;
+    candidates.reserve(kFontFolders.size());
     for (const char* folder : kFontFolders)
         candidates.push_back(fs::path(folder) / (weight == Weight::bold ? "DejaVuSans-Bold.ttf" : "DejaVuSans.ttf"));
     return find_font(candidates);
@@ -163,7 +164,7 @@ std::string elide(std::string_view text, int width_px, const TextStyle& style) {
     const std::size_t characters = starts.size() - 1;
     for (std::size_t kept = characters - 1; kept > 0; --kept) {
         const std::size_t front = (kept + 1) / 2;
-        const std::string shorter =
+        std::string shorter =
             fmt::format("{}…{}", text.substr(0, starts[front]), text.substr(starts[characters - (kept - front)]));
         if (line_width(shorter, style) <= width_px) return shorter;
     }

@@ -98,14 +98,14 @@ double Field::base(const glm::dvec3& x) const {
     return 0.0;
 }
 
-double Field::octave(std::size_t k, const glm::dvec3& at, const glm::dvec3& shift) const {
+double Field::octave(std::size_t k, const glm::dvec3& x, const glm::dvec3& shift) const {
     const noise::Octave& octave = octaves_[k];
-    const glm::dvec3 x = at + shift;
+    const glm::dvec3 at = x + shift;
     if (is_planar_noise()) {
-        const auto p = noise::octave_position<2>(octave, {x.x, x.z});
+        const auto p = noise::octave_position<2>(octave, {at.x, at.z});
         return octave.amplitude * noise::reference_value<2>(octave.key, noise::split_position<2>(p));
     }
-    const auto p = noise::octave_position<3>(octave, {x.x, x.y, x.z});
+    const auto p = noise::octave_position<3>(octave, {at.x, at.y, at.z});
     return octave.amplitude * noise::reference_value<3>(octave.key, noise::split_position<3>(p));
 }
 
@@ -123,17 +123,17 @@ glm::dvec3 Field::base_gradient(const glm::dvec3& x) const {
     return radius > 0.0 ? x / radius : kUp;
 }
 
-glm::dvec3 Field::gradient(const glm::dvec3& at, const glm::dvec3& shift) const {
-    glm::dvec3 gradient = base_gradient(at);
-    const glm::dvec3 x = at + shift;
+glm::dvec3 Field::gradient(const glm::dvec3& x, const glm::dvec3& shift) const {
+    glm::dvec3 gradient = base_gradient(x);
+    const glm::dvec3 at = x + shift;
     for (const noise::Octave& octave : octaves_) {
         const double slope = octave.amplitude * octave.frequency;
         if (is_planar_noise()) {
-            const auto p = noise::octave_position<2>(octave, {x.x, x.z});
+            const auto p = noise::octave_position<2>(octave, {at.x, at.z});
             const auto jet = noise::reference_jet<2>(octave.key, noise::split_position<2>(p));
             gradient -= slope * glm::dvec3(jet.gradient[0], 0.0, jet.gradient[1]);
         } else {
-            const auto p = noise::octave_position<3>(octave, {x.x, x.y, x.z});
+            const auto p = noise::octave_position<3>(octave, {at.x, at.y, at.z});
             const auto jet = noise::reference_jet<3>(octave.key, noise::split_position<3>(p));
             gradient -= slope * glm::dvec3(jet.gradient[0], jet.gradient[1], jet.gradient[2]);
         }

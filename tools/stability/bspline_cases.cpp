@@ -259,7 +259,8 @@ std::vector<Row> not_a_number(const Settings& settings, Random&) {
 
 void add_bspline_cases(std::vector<Case>& cases) {
     const std::string group = "bspline";
-    for (const auto& [low, high] : {std::array{76, 100}, std::array{33, 75}, std::array{9, 32}, std::array{1, 8}}) {
+    for (const std::array orders : {std::array{76, 100}, std::array{33, 75}, std::array{9, 32}, std::array{1, 8}}) {
+        const int low = orders[0], high = orders[1];
         cases.push_back({group,
                          fmt::format("inverse in double, m = {}..{}", low, high),
                          [=](const Settings& s, Random& r) { return inverse_in_double(low, high, s, r); },

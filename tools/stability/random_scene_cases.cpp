@@ -89,9 +89,10 @@ std::vector<Row> random_scenes(const std::string& name, const Settings& settings
             continue;
         }
         ++rendered;
-        std::vector<WorldRay> pixels;
-        for (int i = 0; i < 16; ++i) {
-            pixels.push_back({.pixel = glm::ivec2(static_cast<int>(random() % 640), static_cast<int>(random() % 480))});
+        std::vector<WorldRay> pixels(16);
+        for (WorldRay& ray : pixels) {
+            const auto x = static_cast<int>(random() % 640), y = static_cast<int>(random() % 480);
+            ray.pixel = glm::ivec2(x, y);
         }
         jury->judge(pixels);
         std::vector<double> u, v;

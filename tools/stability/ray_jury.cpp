@@ -58,12 +58,13 @@ double RayJury::rounding(double size) const {
     return 0x1p-49 * (f.lipschitz() * size + radius + (octaves / 8.0 + 6.0) * f.amplitude());
 }
 
-void RayJury::judge(std::span<const WorldRay> world) {
-    std::vector<trace::Ray> rays;
-    for (const WorldRay& ray : world) rays.push_back(local(ray));
-    const std::vector<trace::Hit> hits = trace(rays);
+void RayJury::judge(std::span<const WorldRay> rays) {
+    std::vector<trace::Ray> local_rays;
+    local_rays.reserve(rays.size());
+    for (const WorldRay& ray : rays) local_rays.push_back(local(ray));
+    const std::vector<trace::Hit> hits = trace(local_rays);
     for (std::size_t i = 0; i < rays.size() && !settings_.cancelled(); ++i) {
-        judge_claim(rays[i], hits[i], 0.0, [&] { return replay(world[i]); });
+        judge_claim(local_rays[i], hits[i], 0.0, [&] { return replay(rays[i]); });
     }
 }
 

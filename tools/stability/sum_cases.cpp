@@ -141,9 +141,9 @@ std::vector<Row> constant(const Settings& settings, Random&) {
 }  // namespace
 
 void add_sum_cases(std::vector<Case>& cases) {
-    for (const auto& [kind, name] :
-         {std::pair{EstimatorKind::stratified, "stratified"}, std::pair{EstimatorKind::uniform, "uniform"},
-          std::pair{EstimatorKind::jittered, "jittered"}, std::pair{EstimatorKind::shared, "shared"}}) {
+    for (const EstimatorKind kind :
+         {EstimatorKind::stratified, EstimatorKind::uniform, EstimatorKind::jittered, EstimatorKind::shared}) {
+        const std::string name(scene::name_of(kind));
         cases.push_back({"sums", name, [=](const Settings& s, Random& r) { return mixed(kind, name, s, r); }, {}});
     }
     cases.push_back({"sums", "constant", constant, {}});

@@ -72,6 +72,7 @@ std::vector<Row> step_statistics(const std::string& scene_name, const Settings& 
         for (int x = 0; x < jury.scene().film.width; x += stride) pixels.push_back({.pixel = glm::ivec2(x, y)});
     }
     std::vector<trace::Ray> rays;
+    rays.reserve(pixels.size());
     for (const WorldRay& pixel : pixels) rays.push_back(jury.local(pixel));
     std::vector<std::pair<std::uint32_t, std::size_t>> steps;
     double sum = 0.0, unresolved = 0.0;
