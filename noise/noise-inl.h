@@ -148,23 +148,32 @@ HWY_INLINE WordVec selector2(WordVec hash) {
 
 #endif
 
-// fade(t) = t^3 (6 t^2 - 15 t + 10) and its derivatives (Perlin 2002).
-HWY_INLINE FloatVec fade(FloatVec t) {
+// The quintic fade of one axis (Perlin 2002) about the middle of the cell, with u = t - 1/2, w = u^2, q = 1/4 - w:
+//   fade = t^3 (6 t^2 - 15 t + 10) = 1/2 + u (15/8 - 5 w + 6 w^2),   fade' = 30 q^2,   fade'' = -120 u q,
+// where no sum is much larger than its result, as -15 t + 10 is: a tenth of the rounding error (float_error.h).
+struct Fade {
+    FloatVec u, w, q;
+};
+
+HWY_INLINE Fade fade_of(FloatVec t) {
     const FloatTag d;
-    const FloatVec poly = hn::MulAdd(t, hn::MulAdd(t, hn::Set(d, 6.0f), hn::Set(d, -15.0f)), hn::Set(d, 10.0f));
-    return hn::Mul(hn::Mul(t, hn::Mul(t, t)), poly);
+    const FloatVec u = hn::Sub(t, hn::Set(d, 0.5f));
+    return {u, hn::Mul(u, u), hn::NegMulAdd(u, u, hn::Set(d, 0.25f))};
 }
 
-HWY_INLINE FloatVec fade_derivative(FloatVec t) {
+HWY_INLINE FloatVec fade(const Fade& at) {
     const FloatTag d;
-    const FloatVec s = hn::Mul(t, hn::Sub(t, hn::Set(d, 1.0f)));
-    return hn::Mul(hn::Set(d, 30.0f), hn::Mul(s, s));
+    const FloatVec poly =
+        hn::MulAdd(at.w, hn::MulAdd(at.w, hn::Set(d, 6.0f), hn::Set(d, -5.0f)), hn::Set(d, 1.875f));
+    return hn::MulAdd(at.u, poly, hn::Set(d, 0.5f));
 }
 
-HWY_INLINE FloatVec fade_second(FloatVec t) {
-    const FloatTag d;
-    const FloatVec s = hn::Mul(t, hn::Sub(t, hn::Set(d, 1.0f)));
-    return hn::Mul(hn::Set(d, 60.0f), hn::Mul(s, hn::MulAdd(t, hn::Set(d, 2.0f), hn::Set(d, -1.0f))));
+HWY_INLINE FloatVec fade_derivative(const Fade& at) {
+    return hn::Mul(hn::Set(FloatTag(), 30.0f), hn::Mul(at.q, at.q));
+}
+
+HWY_INLINE FloatVec fade_second(const Fade& at) {
+    return hn::Mul(hn::Set(FloatTag(), -120.0f), hn::Mul(at.u, at.q));
 }
 
 // A form that is linear in each of u, v [, w], from its corner values, with its partial derivatives. What a caller does
@@ -205,7 +214,8 @@ HWY_INLINE Jet2 noise2(const Planes& px, const Planes& py, FloatVec x, FloatVec 
     const FloatVec one = hn::Set(d, 1.0f);
     const WordVec multiplier = hn::Set(WordTag(), kCornerMultiplier);
     const FloatVec x1 = hn::Sub(x, one), y1 = hn::Sub(y, one);
-    const FloatVec u = fade(x), v = fade(y);
+    const Fade fx = fade_of(x), fy = fade_of(y);
+    const FloatVec u = fade(fx), v = fade(fy);
     std::array<FloatVec, 4> dot, gx, gy;
     HWY_UNROLL(4)
     for (std::size_t c = 0; c < 4; ++c) {
@@ -218,14 +228,14 @@ HWY_INLINE Jet2 noise2(const Planes& px, const Planes& py, FloatVec x, FloatVec 
     const Bilinear n = bilinear(dot[0], dot[1], dot[2], dot[3], u, v);
     const Bilinear a = bilinear(gx[0], gx[1], gx[2], gx[3], u, v);
     const Bilinear b = bilinear(gy[0], gy[1], gy[2], gy[3], u, v);
-    const FloatVec du = fade_derivative(x), dv = fade_derivative(y);
+    const FloatVec du = fade_derivative(fx), dv = fade_derivative(fy);
     const FloatVec two = hn::Set(d, 2.0f);
     return {n.value,
             hn::MulAdd(du, n.du, a.value),
             hn::MulAdd(dv, n.dv, b.value),
-            hn::MulAdd(fade_second(x), n.du, hn::Mul(hn::Mul(two, du), a.du)),
+            hn::MulAdd(fade_second(fx), n.du, hn::Mul(hn::Mul(two, du), a.du)),
             hn::MulAdd(du, hn::MulAdd(dv, n.duv, b.du), hn::Mul(dv, a.dv)),
-            hn::MulAdd(fade_second(y), n.dv, hn::Mul(hn::Mul(two, dv), b.dv))};
+            hn::MulAdd(fade_second(fy), n.dv, hn::Mul(hn::Mul(two, dv), b.dv))};
 }
 
 struct Jet3 {
@@ -260,21 +270,22 @@ HWY_INLINE Face face(const Planes& px, const Planes& py, WordVec pz, FloatVec x,
 // 3-D noise with gradient and Hessian at the fraction (x, y, z).
 HWY_INLINE Jet3 noise3(const Planes& px, const Planes& py, const Planes& pz, FloatVec x, FloatVec y, FloatVec z) {
     const FloatTag d;
-    const FloatVec u = fade(x), v = fade(y), w = fade(z);
+    const Fade fx = fade_of(x), fy = fade_of(y), fz = fade_of(z);
+    const FloatVec u = fade(fx), v = fade(fy), w = fade(fz);
     const Face near = face(px, py, pz.below, x, y, z, u, v);
     const Face far = face(px, py, pz.above, x, y, hn::Sub(z, hn::Set(d, 1.0f)), u, v);
     const Trilinear n = trilinear(near.dot, far.dot, w), a = trilinear(near.gx, far.gx, w);
     const Trilinear b = trilinear(near.gy, far.gy, w), c = trilinear(near.gz, far.gz, w);
-    const FloatVec du = fade_derivative(x), dv = fade_derivative(y), dw = fade_derivative(z);
+    const FloatVec du = fade_derivative(fx), dv = fade_derivative(fy), dw = fade_derivative(fz);
     const FloatVec half = hn::Set(d, kGradientScale3);
     Jet3 jet;
     jet.value = hn::Mul(half, n.value);
     jet.dx = hn::Mul(half, hn::MulAdd(du, n.du, a.value));
     jet.dy = hn::Mul(half, hn::MulAdd(dv, n.dv, b.value));
     jet.dz = hn::Mul(half, hn::MulAdd(dw, n.dw, c.value));
-    jet.dxx = hn::MulAdd(hn::Mul(half, fade_second(x)), n.du, hn::Mul(du, a.du));
-    jet.dyy = hn::MulAdd(hn::Mul(half, fade_second(y)), n.dv, hn::Mul(dv, b.dv));
-    jet.dzz = hn::MulAdd(hn::Mul(half, fade_second(z)), n.dw, hn::Mul(dw, c.dw));
+    jet.dxx = hn::MulAdd(hn::Mul(half, fade_second(fx)), n.du, hn::Mul(du, a.du));
+    jet.dyy = hn::MulAdd(hn::Mul(half, fade_second(fy)), n.dv, hn::Mul(dv, b.dv));
+    jet.dzz = hn::MulAdd(hn::Mul(half, fade_second(fz)), n.dw, hn::Mul(dw, c.dw));
     jet.dxy = hn::Mul(half, hn::MulAdd(du, hn::MulAdd(dv, n.duv, b.du), hn::Mul(dv, a.dv)));
     jet.dxz = hn::Mul(half, hn::MulAdd(du, hn::MulAdd(dw, n.duw, c.du), hn::Mul(dw, a.dw)));
     jet.dyz = hn::Mul(half, hn::MulAdd(dv, hn::MulAdd(dw, n.dvw, c.dv), hn::Mul(dw, b.dw)));
