@@ -163,18 +163,13 @@ HWY_INLINE Fade fade_of(FloatVec t) {
 
 HWY_INLINE FloatVec fade(const Fade& at) {
     const FloatTag d;
-    const FloatVec poly =
-        hn::MulAdd(at.w, hn::MulAdd(at.w, hn::Set(d, 6.0f), hn::Set(d, -5.0f)), hn::Set(d, 1.875f));
+    const FloatVec poly = hn::MulAdd(at.w, hn::MulAdd(at.w, hn::Set(d, 6.0f), hn::Set(d, -5.0f)), hn::Set(d, 1.875f));
     return hn::MulAdd(at.u, poly, hn::Set(d, 0.5f));
 }
 
-HWY_INLINE FloatVec fade_derivative(const Fade& at) {
-    return hn::Mul(hn::Set(FloatTag(), 30.0f), hn::Mul(at.q, at.q));
-}
+HWY_INLINE FloatVec fade_derivative(const Fade& at) { return hn::Mul(hn::Set(FloatTag(), 30.0f), hn::Mul(at.q, at.q)); }
 
-HWY_INLINE FloatVec fade_second(const Fade& at) {
-    return hn::Mul(hn::Set(FloatTag(), -120.0f), hn::Mul(at.u, at.q));
-}
+HWY_INLINE FloatVec fade_second(const Fade& at) { return hn::Mul(hn::Set(FloatTag(), -120.0f), hn::Mul(at.u, at.q)); }
 
 // A form that is linear in each of u, v [, w], from its corner values, with its partial derivatives. What a caller does
 // not read is not computed: all is inlined.

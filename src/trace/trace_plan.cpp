@@ -4,10 +4,16 @@
 #include <cmath>
 
 #include "noise/bounds.h"
+#include "noise/float_error.h"
 
 namespace strata::trace {
 
 namespace {
+
+// What the slope along a ray is off by for the factors in front of an octave's: the octave's wave number, rounded up by
+// 2^-19; roundings of wave number, amplitude, their product, the direction, and four of the product of direction and
+// gradient. Relative to the bound of the slope.
+constexpr double kSlopeFactors = (kRoundUp - 1.0) + 8 * 0x1p-24;
 
 float round_up(double x) { return static_cast<float>(x * kRoundUp); }
 
@@ -26,7 +32,8 @@ TraceOctave prepare(const noise::Octave& octave) {
 
 TracePlan::TracePlan(const Field& field) {
     const noise::NoiseBounds& bounds = field.is_planar_noise() ? noise::kBounds2 : noise::kBounds3;
-    peak = round_up(bounds.value + kNoiseFloatError);  // M - v must not fall short because v is a float
+    const noise::FloatErrors& errors = field.is_planar_noise() ? noise::kFloatErrors2 : noise::kFloatErrors3;
+    peak = round_up(bounds.value + errors.value);  // M - v must not fall short because v is a float
     slope = round_up(bounds.gradient);
     half_bend = round_up(0.5 * bounds.second);
     double total = 0.0, slopes = 0.0, rest = 0.0;
@@ -43,8 +50,8 @@ TracePlan::TracePlan(const Field& field) {
     // amplitudes.
     const double roundings = 0x1p-24 * static_cast<double>(4 * octaves.size() + 16);
     error_relative = round_up(roundings);
-    error_absolute = round_up(kNoiseFloatError * total + roundings * 2.0 * field.amplitude());
-    slope_error = round_up(kSlopeFloatError * slopes + roundings * field.lipschitz());
+    error_absolute = round_up(errors.value * total + roundings * 2.0 * field.amplitude());
+    slope_error = round_up(errors.slope * slopes + (roundings + kSlopeFactors) * field.lipschitz());
     inverse_lipschitz = static_cast<float>(1.0 / std::max(field.lipschitz(), 1e-30));
     first_hint = octaves.empty() ? 1.0f : static_cast<float>(0.15 / octaves.front().frequency);
 }

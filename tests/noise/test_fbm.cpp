@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "noise/bounds.h"
+#include "noise/float_error.h"
 #include "noise/noise.h"
 #include "tests/noise/oracle_jet.h"
 #include "tools/stability/oracles/field_oracle.h"
@@ -27,7 +28,6 @@ using strata::oracle::OracleOctave;
 template <std::size_t D>
 using Offsets = std::array<std::vector<float>, D>;
 
-constexpr double kNoiseFloatError = 0x1p-15;  // of one octave; derived in src/trace/trace_plan.h
 constexpr double kRounding = 0x1p-24;
 
 template <std::size_t D>
@@ -88,7 +88,7 @@ Expected expected_value(const std::vector<OracleOctave>& octaves, const std::arr
         const auto amplitude = static_cast<long double>(octave.amplitude);
         sum.value += amplitude * oracle_jet_at<D>(octave.key, cell, x).value;
         const NoiseBounds& bounds = kNoiseBounds<D>;
-        sum.error += std::abs(octave.amplitude) * (kNoiseFloatError + bounds.gradient * std::sqrt(shift));
+        sum.error += std::abs(octave.amplitude) * (kFloatErrors<D>.value + bounds.gradient * std::sqrt(shift));
         roundings += std::abs(octave.amplitude) * bounds.value;
     }
     sum.error += kRounding * static_cast<double>(2 * octaves.size() + 1) * roundings;

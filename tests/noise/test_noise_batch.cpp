@@ -10,63 +10,17 @@
 #include <vector>
 
 #include "noise/bounds.h"
+#include "noise/float_error.h"
 #include "noise/noise.h"
 #include "noise/reference.h"
 #include "tests/noise/batch_case.h"
+#include "tests/noise/float_difference.h"
 #include "tests/noise/oracle_jet.h"
 
 namespace {
 
 using namespace strata::noise;
 using namespace strata::noise::test;
-
-// The bounds of src/trace/trace_plan.h, which derives them and whose floor is above this one.
-constexpr double kValueError = 0x1p-15;
-constexpr double kSlopeError = 0x1p-13;
-
-// One entry of the Hessian, in units of 2^-24, after the same derivation. Diagonal: |fade''| <= 5.78 times the error
-// 472 of a face difference, an error of 60 of fade'' times the difference 3, 2 * 1.875 times the error 308 of a
-// gradient component's difference, the error 12 of fade' times 2 * 2: 4113. Off the diagonal: 1.875^2 times the error
-// 492 of the mixed difference, 2 * 12 * 1.875 * 6, 2 * 1.875 * 308, 2 * 12 * 2: 3203. The fraction's error through the
-// third derivative: 151. In all below 2^-11.
-constexpr double kHessianError = 0x1p-11;
-
-template <std::size_t D>
-std::array<long double, D> position(const Offsets<D>& offsets, std::size_t i) {
-    std::array<long double, D> x;
-    for (std::size_t a = 0; a < D; ++a) x[a] = static_cast<long double>(offsets[a][i]);
-    return x;
-}
-
-struct Errors {
-    double value = 0.0, slope = 0.0, hessian = 0.0;
-};
-
-// The slope's error is the largest over unit directions: the length of the gradient's error.
-template <std::size_t D, class Found>
-void compare(const Dual2<D>& expected, const Found& found, Errors& worst) {
-    long double slope = 0;
-    worst.value = std::max(worst.value, static_cast<double>(std::abs(found.value - expected.value)));
-    for (std::size_t a = 0; a < D; ++a) {
-        slope += std::pow(found.gradient[a] - expected.gradient[a], 2);
-        for (std::size_t b = 0; b < D; ++b) {
-            const long double error = std::abs(found.hessian[a][b] - expected.hessian[a][b]);
-            worst.hessian = std::max(worst.hessian, static_cast<double>(error));
-        }
-    }
-    worst.slope = std::max(worst.slope, static_cast<double>(std::sqrt(slope)));
-}
-
-template <std::size_t D>
-Dual2<D> point_of(const Output<D>& output, std::size_t i) {
-    Dual2<D> jet(static_cast<long double>(output.value[i]));
-    for (std::size_t a = 0; a < D; ++a) {
-        jet.gradient[a] = static_cast<long double>(output.gradient[a][i]);
-        for (std::size_t b = 0; b < D; ++b)
-            jet.hessian[a][b] = static_cast<long double>(output.hessian[entry<D>(a, b)][i]);
-    }
-    return jet;
-}
 
 template <std::size_t D>
 void check_against_oracle() {
@@ -84,13 +38,10 @@ void check_against_oracle() {
         Errors worst;
         for (std::size_t k = 0; k < kCases; ++k) {
             const Output<D> found = evaluate<D>(cases[k].key, cases[k].base, cases[k].offsets);
-            for (std::size_t i = 0; i < kCount; ++i) compare<D>(expected[k][i], point_of<D>(found, i), worst);
+            for (std::size_t i = 0; i < kCount; ++i)
+                worst = larger(worst, difference<D>(expected[k][i], point_of<D>(found, i)));
         }
-        CHECK(worst.value <= kValueError);
-        CHECK(worst.slope <= kSlopeError);
-        CHECK(worst.hessian <= kHessianError);
-        MESSAGE(D << "-D " << target << ", of the bounds: value " << worst.value / kValueError << ", slope "
-                  << worst.slope / kSlopeError << ", Hessian " << worst.hessian / kHessianError);
+        check_within<D>(worst, std::to_string(D) + "-D " + target);
     });
 }
 
@@ -109,16 +60,15 @@ void check_reference() {
             x[a] = static_cast<long double>(at.fraction[a]);
         }
         const Dual2<D> expected = oracle_jet<D>(key.axis, at.cell, x);
-        compare<D>(expected, reference_jet<D>(key, at), worst);
+        worst = larger(worst, difference<D>(expected, reference_jet<D>(key, at)));
         const auto value_error = std::abs(static_cast<double>(reference_value<D>(key, at) - expected.value));
         worst.value = std::max(worst.value, value_error);
     }
-    MESSAGE(D << "-D largest errors: value " << worst.value << ", slope " << worst.slope << ", second "
-              << worst.hessian);
+    MESSAGE(D << "-D largest errors: value " << worst.value << ", slope " << worst.slope << ", second " << worst.entry);
     // A few ulp of the sum of the corners' gradients, 11.3, times 1, 1.875 and 5.78, the fade's derivatives.
     CHECK(worst.value < 1e-14);
     CHECK(worst.slope < 2e-14);
-    CHECK(worst.hessian < 6e-14);
+    CHECK(worst.entry < 6e-14);
 }
 
 // A plane from its two sides: cell -1 at a fraction that rounds to 1, and cell 0 at fraction 0.
@@ -137,13 +87,14 @@ void check_continuity() {
             }
             const Output<D> low = evaluate<D>(before.key, before.base, before.offsets);
             const Output<D> high = evaluate<D>(after.key, after.base, after.offsets);
-            for (std::size_t i = 0; i < 19; ++i) compare<D>(point_of<D>(low, i), point_of<D>(high, i), worst);
+            for (std::size_t i = 0; i < 19; ++i)
+                worst = larger(worst, difference<D>(point_of<D>(low, i), point_of<D>(high, i)));
         }
-        CHECK(worst.value <= 2 * kValueError);
-        CHECK(worst.slope <= 2 * kSlopeError);
-        CHECK(worst.hessian <= 2 * kHessianError);
+        CHECK(worst.value <= 2 * kFloatErrors<D>.value);
+        CHECK(worst.slope <= 2 * kFloatErrors<D>.slope);
+        CHECK(worst.entry <= 2 * kFloatErrors<D>.hessian_entry);
         MESSAGE(D << "-D " << target << ": largest jumps " << worst.value << ", " << worst.slope << ", "
-                  << worst.hessian);
+                  << worst.entry);
     });
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "noise/float_error.h"
 #include "tests/trace/fast_tracer_cases.h"
 
 using namespace strata;
@@ -19,12 +20,13 @@ std::vector<glm::dvec3> points(Random& random, std::size_t count, double reach) 
     return x;
 }
 
-// Bound of a float gradient's error, of sum a_k w_k: rounding of the evaluation along each of three axes
-// (kSlopeFloatError is along a unit direction), of the sum of up to 32 octaves, and of the base.
+// Bound of a float gradient's error, of sum a_k w_k: rounding of the evaluation, of the sum of up to 32 octaves, and of
+// the base.
 double bound(const trace::Field& field) {
     double slopes = 0.0;
     for (const noise::Octave& octave : field.octaves()) slopes += octave.amplitude * octave.frequency;
-    return 2.0 * trace::kSlopeFloatError * slopes + 40 * 0x1p-24 * field.lipschitz();
+    const noise::FloatErrors& errors = field.is_planar_noise() ? noise::kFloatErrors2 : noise::kFloatErrors3;
+    return errors.slope * slopes + 40 * 0x1p-24 * field.lipschitz();
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "noise/bounds.h"
-#include "src/trace/trace_plan.h"
+#include "noise/float_error.h"
 #include "tools/stability/case.h"
 #include "tools/stability/ray_jury.h"
 
@@ -118,16 +118,17 @@ struct Displacement {
 };
 
 // On a height field |grad f| >= 1, so that unit normals differ by no more than gradients do: by the largest second
-// derivative times the distance d between two hits, and twice the float gradient's error (src/trace/trace_plan.h) and a
+// derivative times the distance d between two hits, and twice the float gradient's error (noise/float_error.h) and a
 // few roundings of the normal.
 double radiance_bound(const trace::Field& field, double distance) {
     const noise::NoiseBounds& bounds = field.is_planar_noise() ? noise::kBounds2 : noise::kBounds3;
+    const noise::FloatErrors& errors = field.is_planar_noise() ? noise::kFloatErrors2 : noise::kFloatErrors3;
     double bend = 0.0, slope = 0.0;
     for (const noise::Octave& octave : field.octaves()) {
         bend += octave.amplitude * octave.frequency * octave.frequency * bounds.second;
         slope += octave.amplitude * octave.frequency;
     }
-    return bend * distance + 2.0 * trace::kSlopeFloatError * slope + 16.0 * 0x1p-24;
+    return bend * distance + 2.0 * errors.slope * slope + 16.0 * 0x1p-24;
 }
 
 std::vector<Row> same_picture(const std::string& scene_name, const Motion& motion, const Settings& settings, Random&) {

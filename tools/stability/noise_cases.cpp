@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "noise/bounds.h"
+#include "noise/float_error.h"
 #include "noise/noise.h"
 #include "noise/simd_target.h"
-#include "src/trace/trace_plan.h"
 #include "tools/stability/case.h"
 #include "tools/stability/oracles/noise_jet.h"
 
@@ -18,18 +18,8 @@ namespace strata::tools::stability {
 
 namespace {
 
+using noise::kFloatErrors;
 using oracle::Dual2;
-
-// Float evaluation for unit amplitude and fractions of [0,1], derived in src/trace/trace_plan.h: of the value, and of
-// the slope along any unit direction.
-constexpr double kValueError = trace::kNoiseFloatError, kSlopeError = trace::kSlopeFloatError;
-
-// An entry of the Hessian. On the diagonal: |fade''| <= 5.78 times the error 472 of a face difference, an error of 29
-// of fade'' (five roundings) times the difference 3, 2 * 1.875 times the error 308 of a gradient component's
-// difference, the error 12 of fade' times 2 * 2: 4018. Off the diagonal: 1.875^2 times the error 500 of the mixed
-// difference, two fades' errors of 12 times 1.875 * 6, twice 1.875 * 308 and 12 * 2: 3231. The fraction's rounding
-// through the third derivative, 150.68 * sqrt(3): 261. A last sum: 75. In all below 4400 < 2^-11 / 2^-24.
-constexpr double kHessianError = 0x1p-11;
 
 template <std::size_t D>
 std::size_t entry(std::size_t i, std::size_t j) {
@@ -142,7 +132,8 @@ std::vector<Row> against_long_double(const Settings& settings, Random& random, c
         worst[2].see(e.hessian, where);
     }
     std::vector<Row> rows;
-    constexpr std::array<double, 3> kBounds = {kValueError, kSlopeError, kHessianError};
+    constexpr std::array<double, 3> kBounds = {kFloatErrors<D>.value, kFloatErrors<D>.slope,
+                                               kFloatErrors<D>.hessian_entry};
     constexpr std::array<const char*, 3> kNames = {"value", "gradient", "Hessian"};
     for (const bool is_far : {false, true}) {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -169,9 +160,9 @@ std::vector<Row> continuity(const Settings& settings, Random& random, const std:
     Worst corner;
     const noise::NoiseBounds& bounds = noise::kNoiseBounds<static_cast<int>(D)>;
     const double gap = 0x1p-24 * std::sqrt(static_cast<double>(D));
-    const std::array<double, 3> bound = {2 * kValueError + bounds.gradient * gap,
-                                         2 * kSlopeError + D * bounds.second * gap,
-                                         2 * kHessianError + D * bounds.third * gap};
+    const std::array<double, 3> bound = {2 * kFloatErrors<D>.value + bounds.gradient * gap,
+                                         2 * kFloatErrors<D>.slope + D * bounds.second * gap,
+                                         2 * kFloatErrors<D>.hessian_entry + D * bounds.third * gap};
     for (int i = 0; i < settings.trials(6000, 600); ++i) {
         const std::uint64_t seed = random() % 1000;
         const noise::LatticeKey key = noise::lattice_key(seed, 0);
@@ -273,14 +264,14 @@ std::vector<Row> zero_gradients(const Settings& settings, Random& random, const 
     return {{fmt::format("{} {}-D gradient where it vanishes", target, D),
              Kind::check,
              slope.value(),
-             kSlopeError,
+             kFloatErrors<D>.slope,
              "absolute",
              fmt::format("{} critical points; {}", found, slope.where()),
              {}},
             {fmt::format("{} {}-D slope along directions across the gradient", target, D),
              Kind::check,
              directional.value(),
-             kSlopeError,
+             kFloatErrors<D>.slope,
              "absolute",
              directional.where(),
              {}}};

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "noise/bounds.h"
+#include "noise/float_error.h"
 #include "noise/noise.h"
 #include "noise/simd_target.h"
-#include "src/trace/trace_plan.h"
 #include "tools/stability/case.h"
 #include "tools/stability/oracles/noise_oracle.h"
 
@@ -36,7 +36,7 @@ const std::array<Sum, 8> kSums = {{
 }};
 
 // fbm_value's contract: the position is off by 2^-24 (3 |w offset| + 2) cells an axis, worth the gradient's bound a
-// cell; each octave errs by kNoiseFloatError; each of 2 K + 1 roundings of the sum by 2^-24 of its amplitudes. The
+// cell; each octave errs by kFloatErrors3.value; each of 2 K + 1 roundings of the sum by 2^-24 of its amplitudes. The
 // octave's position at the origin is rounded to double by definition (2^-53 of its size, twice), as it is in the long
 // double sum here.
 std::vector<Row> sums(const Settings& settings, Random& random, const std::string& target) {
@@ -71,7 +71,7 @@ std::vector<Row> sums(const Settings& settings, Random& random, const std::strin
                 }
                 const long double amplitude = static_cast<long double>(octave.amplitude);
                 expected += amplitude * oracle::noise3<long double>(octave.key.axis, p[0], p[1], p[2]);
-                bound += amplitude * (static_cast<long double>(trace::kNoiseFloatError) +
+                bound += amplitude * (static_cast<long double>(noise::kFloatErrors3.value) +
                                       static_cast<long double>(noise::kBounds3.gradient) * std::sqrt(shift));
                 amplitudes += amplitude * static_cast<long double>(noise::kBounds3.value);
             }
