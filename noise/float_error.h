@@ -7,7 +7,7 @@
 // power of two:
 //   offsets   t - 1 is exact from t = 1/2 on (Sterbenz), below it is off by e/2. Products with the 3-D gradients' 0 and
 //             +-1 and sums with 0 are exact, which leaves one rounding a corner's dot product; 2-D has three.
-//   fade      with u = t - 1/2 (exact from 1/4 on, else off by e/4), w = u^2, q = 1/4 - w: at most 3 e near 0 and 1,
+//   fade      with u = t - 1/2 (exact from 1/4 on, else off by e/4), q = 1/4 - u^2: at most 3 e near 0 and 1,
 //   0.5
 //             to 1.5 e in the middle half; its first derivative 5.5 e, its second 30 e.
 //   weights   every result is linear in each axis's fade; an error of the fade costs that times the derivative by it,

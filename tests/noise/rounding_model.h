@@ -90,8 +90,8 @@ struct AxisModel {
     Range weight() const { return {fade.exact.lo - kUnit * fade.error, fade.exact.hi + kUnit * fade.error}; }
 };
 
-// As noise-inl.h goes, for t in [lo, hi] of [0,1]. A computed |u| <= 1/2 and w, q <= 1/4, because rounding is monotone.
-// kSlack covers what earlier errors, none above 16 e, add to a number that is rounded.
+// As noise-inl.h goes, for t in [lo, hi] of [0,1]. A computed |u| <= 1/2 and w = u^2, q <= 1/4, because rounding is
+// monotone. kSlack covers what earlier errors, none above 16 e, add to a number that is rounded.
 inline constexpr double kSlack = 16 * kUnit;
 
 inline AxisModel axis_model(double lo, double hi) {
@@ -104,21 +104,21 @@ inline AxisModel axis_model(double lo, double hi) {
     const Range w{least * least, u_size * u_size}, q{0.25 - w.hi, 0.25 - w.lo};
     const double of_square = 2.0 * u_size * u_error + kUnit * u_error * u_error;
     const double w_error = of_square + rounding(std::min(w.hi + kSlack, 0.25));
-    const double w_size = std::min(w.hi + kUnit * w_error, 0.25);
 
-    // 6 w - 5, then w times that + 15/8, then u times that + 1/2.
-    const Range linear{6.0 * w.lo - 5.0, 6.0 * w.hi - 5.0};
-    const double linear_error = 6.0 * w_error + rounding(6.0 * w_size) + rounding(linear.size() + kSlack);
-    const Range bent = w * linear, poly = {1.875 + bent.lo, 1.875 + bent.hi};
-    const double poly_error = w_error * linear.size() + w_size * linear_error + rounding(bent.size() + kSlack) +
+    const double q_error = w_error + rounding(std::min(q.hi + kSlack, 0.25));
+    const double q_size = std::min(q.hi + kUnit * q_error, 0.25);
+
+    // 6 q + 2, then q times that + 1, then u times that + 1/2.
+    const Range linear{6.0 * q.lo + 2.0, 6.0 * q.hi + 2.0};
+    const double linear_error = 6.0 * q_error + rounding(6.0 * q_size) + rounding(linear.size() + kSlack);
+    const Range bent = q * linear, poly = {1.0 + bent.lo, 1.0 + bent.hi};
+    const double poly_error = q_error * linear.size() + q_size * linear_error + rounding(bent.size() + kSlack) +
                               rounding(poly.size() + kSlack);
     const auto at = [](double t) { return t * t * t * (t * (6.0 * t - 15.0) + 10.0); };
     m.fade.exact = {at(lo), at(hi)};
     m.fade.error = u_error * (poly.size() + kUnit * poly_error) + u_size * poly_error +
                    rounding((u * poly).size() + kSlack) + rounding(at(hi) + kSlack);
 
-    const double q_error = w_error + rounding(std::min(q.hi + kSlack, 0.25));
-    const double q_size = std::min(q.hi + kUnit * q_error, 0.25);
     const double square_error = 2.0 * q.hi * q_error + kUnit * q_error * q_error + rounding(q_size * q_size);
     m.first.exact = {30.0 * q.lo * q.lo, 30.0 * q.hi * q.hi};
     m.first.error = 30.0 * square_error + rounding(30.0 * (q.hi * q.hi + kUnit * square_error));
