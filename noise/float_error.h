@@ -7,9 +7,8 @@
 // power of two:
 //   offsets   t - 1 is exact from t = 1/2 on (Sterbenz), below it is off by e/2. Products with the 3-D gradients' 0 and
 //             +-1 and sums with 0 are exact, which leaves one rounding a corner's dot product; 2-D has three.
-//   fade      with u = t - 1/2 (exact from 1/4 on, else off by e/4), q = 1/4 - u^2: at most 3 e near 0 and 1,
-//   0.5
-//             to 1.5 e in the middle half; its first derivative 5.5 e, its second 30 e.
+//   fade      with u = t - 1/2 (exact from 1/4 on, else off by e/4), q = 1/4 - u^2: at most 2.2 e, 0.5 e in the
+//             middle; its first derivative 5.5 e, its second 30 e.
 //   weights   every result is linear in each axis's fade; an error of the fade costs that times the derivative by it,
 //             taken of the whole result, where its terms may cancel.
 //   interpolation  a + t (b - a) carries the errors of a and b with the weights 1 - t and t; its own roundings cost
@@ -36,8 +35,8 @@ struct FloatErrors {
     double hessian_entry;  // of each entry
 };
 
-inline constexpr FloatErrors kFloatErrors2 = {13 * 0x1p-24, 54 * 0x1p-24, 57 * 0x1p-24, 260 * 0x1p-24};
-inline constexpr FloatErrors kFloatErrors3 = {29 * 0x1p-24, 115 * 0x1p-24, 152 * 0x1p-24, 520 * 0x1p-24};
+inline constexpr FloatErrors kFloatErrors2 = {12 * 0x1p-24, 50 * 0x1p-24, 57 * 0x1p-24, 245 * 0x1p-24};
+inline constexpr FloatErrors kFloatErrors3 = {28 * 0x1p-24, 110 * 0x1p-24, 150 * 0x1p-24, 500 * 0x1p-24};
 
 template <int D>
 inline constexpr const FloatErrors& kFloatErrors = D == 2 ? kFloatErrors2 : kFloatErrors3;
