@@ -2,6 +2,13 @@
 
 namespace strata::render {
 
+PhaseCost& PhaseCost::operator+=(const PhaseCost& other) {
+    seconds += other.seconds;
+    noise_evaluations += other.noise_evaluations;
+    steps += other.steps;
+    return *this;
+}
+
 Counters& Counters::operator+=(const Counters& other) {
     rays += other.rays;
     shadow_rays += other.shadow_rays;
@@ -10,6 +17,7 @@ Counters& Counters::operator+=(const Counters& other) {
     noise_evaluations += other.noise_evaluations;
     executed_lanes += other.executed_lanes;
     steps += other.steps;
+    for (std::size_t i = 0; i < kPhases; ++i) phases[i] += other.phases[i];
     return *this;
 }
 

@@ -2,6 +2,7 @@
 // any such function into pixels and know nothing of what lies behind it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -10,6 +11,18 @@ namespace strata::render {
 
 // Work done, exact and independent of threads and tiles; but for executed_lanes, which also counts SIMD lanes that idle
 // and so depends on how rays came to share packets.
+// Where the work of a ray-cast surface is done.
+enum class Phase { beams, rays, normals, shadows, shading };
+inline constexpr std::size_t kPhases = 5;
+
+struct PhaseCost {
+    double seconds = 0.0;  // of one thread's time; depends on the machine, unlike all else here
+    std::uint64_t noise_evaluations = 0;
+    std::uint64_t steps = 0;
+
+    PhaseCost& operator+=(const PhaseCost& other);
+};
+
 struct Counters {
     std::uint64_t rays = 0;  // image-function samples evaluated; counted by the renderer, all else by image functions
     std::uint64_t shadow_rays = 0;
@@ -18,6 +31,7 @@ struct Counters {
     std::uint64_t noise_evaluations = 0;
     std::uint64_t executed_lanes = 0;
     std::uint64_t steps = 0;
+    std::array<PhaseCost, kPhases> phases;
 
     Counters& operator+=(const Counters& other);
 };

@@ -1,11 +1,13 @@
 #include "src/render/surface_image.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "shaders_cpu/sky.h"
 #include "shaders_cpu/terrain_material.h"
+#include "src/render/phase_meter.h"
 #include "src/scene/needs.h"
 #include "src/trace/reference_tracer.h"
 #include "src/trace/shadow_ray.h"
@@ -16,12 +18,6 @@ namespace {
 
 // Rays traced at once: enough to keep packets full, few enough for their data to stay in the second-level cache.
 constexpr std::size_t kChunk = 1024;
-
-void add(Counters& to, const trace::TraceCounters& from) {
-    to.noise_evaluations += from.noise_evaluations;
-    to.executed_lanes += from.executed_lanes;
-    to.steps += from.steps;
-}
 
 }  // namespace
 
@@ -39,12 +35,25 @@ struct SurfaceImage::Lit {
 
 // What a chunk of samples needs on its way; one each call of evaluate(), its memory reused from chunk to chunk.
 struct SurfaceImage::Chunk {
+    BeamedSamples beamed;
+    std::vector<double> u, v, t;  // of samples in the order of their cells
+    std::vector<double> start;    // up to where their rays are free; empty where that is not known
+    std::vector<float> hint;
+    std::vector<glm::vec3> radiance;
     std::vector<trace::Ray> rays, shadow_rays;
     std::vector<trace::Hit> hits, surface_hits, shadow_hits;
     std::vector<glm::dvec3> view, sun, x, noise_shift;
     std::vector<glm::vec3> normal;
     std::vector<Lit> lit;
     std::vector<std::size_t> shadow_owner;
+
+    void clear_samples() {
+        u.clear();
+        v.clear();
+        t.clear();
+        start.clear();
+        hint.clear();
+    }
 
     // What is filled hit by hit would be copied over and over while it grows: 5 to 8 % of a render.
     void reserve(std::size_t count, bool drifts, bool has_shadows) {
@@ -67,7 +76,9 @@ SurfaceImage::SurfaceImage(const scene::Scene& scene, Tracer tracer, std::uint32
       placement_(scene.surface),
       path_(scene.camera),
       camera_(path_.at(0.0), scene.film),
-      sun_direction_(glm::normalize(scene.sun.direction)) {}
+      sun_direction_(glm::normalize(scene.sun.direction)) {
+    if (tracer_ == Tracer::fast && !path_.moves()) beams_.emplace(scene_, camera_, placement_, field_);
+}
 
 trace::Ray SurfaceImage::camera_ray(double u, double v, double t) const {
     return camera_ray(path_.moves() ? trace::Camera(path_.at(t), scene_.film) : camera_, u, v);
@@ -142,6 +153,7 @@ void SurfaceImage::normals(std::span<const trace::Hit> hits, std::span<const glm
 void SurfaceImage::evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const {
     Chunk chunk;
     chunk.reserve(std::min(kChunk, samples.u.size()), field_.drifts(), scene::needs_shadow_rays(scene_.sun));
+    if (beams_) return evaluate_beamed(samples, radiance, chunk, counters);
     for (std::size_t begin = 0; begin < samples.u.size(); begin += kChunk) {
         const std::size_t count = std::min(kChunk, samples.u.size() - begin);
         const SampleBatch part{samples.u.subspan(begin, count), samples.v.subspan(begin, count),
@@ -150,10 +162,37 @@ void SurfaceImage::evaluate(const SampleBatch& samples, std::span<glm::vec3> rad
     }
 }
 
+// Cell by cell, with what the cells' beams found.
+void SurfaceImage::evaluate_beamed(const SampleBatch& samples, std::span<glm::vec3> radiance, Chunk& chunk,
+                                   Counters& counters) const {
+    PhaseMeter meter(counters);
+    trace::TraceCounters traced;
+    beams_->trace(samples, chunk.beamed, traced);
+    meter.book(Phase::beams, traced);
+    const std::vector<std::uint32_t>& order = chunk.beamed.samples.order;
+    auto cell = chunk.beamed.cells.begin();
+    for (std::size_t begin = 0; begin < order.size(); begin += kChunk) {
+        const std::size_t end = std::min(begin + kChunk, order.size());
+        chunk.clear_samples();
+        for (std::size_t i = begin; i < end; ++i) {
+            while (i >= cell->last) ++cell;
+            const std::uint32_t sample = order[i];
+            chunk.u.push_back(samples.u[sample]);
+            chunk.v.push_back(samples.v[sample]);
+            chunk.t.push_back(samples.t[sample]);
+            chunk.start.push_back(cell->misses ? std::numeric_limits<double>::infinity() : cell->start);
+            chunk.hint.push_back(cell->hint);
+        }
+        chunk.radiance.resize(end - begin);
+        evaluate_chunk({chunk.u, chunk.v, chunk.t}, chunk.radiance, chunk, counters);
+        for (std::size_t i = begin; i < end; ++i) radiance[order[i]] = chunk.radiance[i - begin];
+    }
+}
+
 void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec3> radiance, Chunk& chunk,
                                   Counters& counters) const {
     const std::size_t count = samples.u.size();
-    trace::TraceCounters traced;
+    PhaseMeter meter(counters);
 
     // Rays of the camera at their own time, turned into the surface's coordinates at that time. The sky does not spin
     // with it.
@@ -173,11 +212,18 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
         if (path_.moves() && is_new_time) moved.emplace(path_.at(t), scene_.film);
         const trace::Ray world = camera_ray(moved ? *moved : camera_, samples.u[i], samples.v[i]);
         chunk.rays[i] = to_local(orientation, world, t);
+        if (!chunk.start.empty()) {
+            chunk.rays[i].start = chunk.start[i];
+            chunk.rays[i].hint = chunk.hint[i];
+        }
         chunk.view[i] = trace::Placement::direction_to_local(placement_.resting_orientation(), world.direction);
         chunk.sun[i] = sun;
     }
     chunk.hits.resize(count);
+    meter.book(Phase::shading);
+    trace::TraceCounters traced;
     trace(chunk.rays, chunk.hits, traced);
+    meter.book(Phase::rays, traced);
 
     // Positions and normals of what was hit; the rest is sky.
     chunk.lit.clear();
@@ -200,7 +246,10 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
         }
     }
     chunk.normal.resize(chunk.x.size());
+    meter.book(Phase::shading);
+    traced = {};
     normals(chunk.surface_hits, chunk.x, chunk.noise_shift, chunk.normal, traced);
+    meter.book(Phase::normals, traced);
     const bool is_planet = scene_.surface.kind == scene::SurfaceKind::planet;
     for (std::size_t i = 0; i < chunk.lit.size(); ++i) {
         Lit& lit = chunk.lit[i];
@@ -208,15 +257,20 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
         lit.height = is_planet ? field_.base(chunk.x[i]) : chunk.x[i].y;
         if (is_planet) lit.up = field_.base_gradient(chunk.x[i]);
     }
-    add(counters, traced);
 
-    if (scene::needs_shadow_rays(scene_.sun)) shadow(chunk, counters);
+    if (scene::needs_shadow_rays(scene_.sun)) {
+        traced = {};
+        meter.book(Phase::shading);
+        shadow(chunk, counters, traced);
+        meter.book(Phase::shadows, traced);
+    }
     for (const Lit& lit : chunk.lit) radiance[lit.sample] = shade_hit(lit);
     counters.hits += chunk.lit.size();
+    meter.book(Phase::shading);
 }
 
 // A point of the convex bound that faces the sun sees it.
-void SurfaceImage::shadow(Chunk& chunk, Counters& counters) const {
+void SurfaceImage::shadow(Chunk& chunk, Counters& counters, trace::TraceCounters& traced) const {
     chunk.shadow_rays.clear();
     chunk.shadow_owner.clear();
     for (std::size_t i = 0; i < chunk.lit.size(); ++i) {
@@ -227,7 +281,6 @@ void SurfaceImage::shadow(Chunk& chunk, Counters& counters) const {
         chunk.shadow_owner.push_back(i);
     }
     chunk.shadow_hits.resize(chunk.shadow_rays.size());
-    trace::TraceCounters traced;
     trace(chunk.shadow_rays, chunk.shadow_hits, traced);
     for (std::size_t i = 0; i < chunk.shadow_hits.size(); ++i) {
         const trace::HitState state = chunk.shadow_hits[i].state;
@@ -235,7 +288,6 @@ void SurfaceImage::shadow(Chunk& chunk, Counters& counters) const {
         if (state == trace::HitState::unresolved) ++counters.unresolved_rays;
     }
     counters.shadow_rays += chunk.shadow_rays.size();
-    add(counters, traced);
 }
 
 glm::vec3 SurfaceImage::shade_hit(const Lit& lit) const {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "src/render/image_function.h"
+#include "src/render/screen_beams.h"
 #include "src/scene/camera_path.h"
 #include "src/scene/scene.h"
 #include "src/trace/camera.h"
@@ -54,6 +56,8 @@ class SurfaceImage final : public ImageFunction {
     struct Chunk;
     struct Lit;
 
+    void evaluate_beamed(const SampleBatch& samples, std::span<glm::vec3> radiance, Chunk& chunk,
+                         Counters& counters) const;
     void evaluate_chunk(const SampleBatch& samples, std::span<glm::vec3> radiance, Chunk& chunk,
                         Counters& counters) const;
     void gradients(std::span<const glm::dvec3> x, std::span<const glm::dvec3> noise_shift,
@@ -61,7 +65,7 @@ class SurfaceImage final : public ImageFunction {
     void gradients_off_bound(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
                              std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient,
                              trace::TraceCounters& counters) const;
-    void shadow(Chunk& chunk, Counters& counters) const;
+    void shadow(Chunk& chunk, Counters& counters, trace::TraceCounters& traced) const;
     glm::vec3 shade_hit(const Lit& lit) const;
     trace::Ray camera_ray(const trace::Camera& camera, double u, double v) const;
 
@@ -72,7 +76,8 @@ class SurfaceImage final : public ImageFunction {
     trace::FastTracer fast_;
     trace::Placement placement_;
     scene::CameraPath path_;
-    trace::Camera camera_;      // where it stays, if it does
+    trace::Camera camera_;  // where it stays, if it does
+    std::optional<ScreenBeams> beams_;
     glm::dvec3 sun_direction_;  // in the world, of unit length
 };
 

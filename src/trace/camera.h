@@ -12,6 +12,12 @@ struct CameraRay {
     double pixel_angle;    // width of a pixel at unit distance along this ray, across the ray, at its narrowest
 };
 
+// Directions within the angle whose tangent is given of a direction of unit length.
+struct CameraCone {
+    glm::dvec3 direction;
+    double tangent;  // infinite where there is no such cone
+};
+
 class Camera {
   public:
     // Looking straight along `up`, another axis is taken for up.
@@ -20,13 +26,19 @@ class Camera {
     const glm::dvec3& position() const { return position_; }
 
     CameraRay ray(double u, double v) const {
-        const glm::dvec3 toward =
-            forward_ + right_ * ((u - 0.5 * width_) * pixel_) - up_ * ((v - 0.5 * height_) * pixel_);
-        const double squared = glm::dot(toward, toward);
-        return {toward / glm::sqrt(squared), pixel_ / squared};
+        const glm::dvec3 along = toward(u, v);
+        const double squared = glm::dot(along, along);
+        return {along / glm::sqrt(squared), pixel_ / squared};
     }
 
+    // Around the rays through a square of the screen, given by its corner and side.
+    CameraCone cone(double u, double v, double side) const;
+
   private:
+    glm::dvec3 toward(double u, double v) const {
+        return forward_ + right_ * ((u - 0.5 * width_) * pixel_) - up_ * ((v - 0.5 * height_) * pixel_);
+    }
+
     glm::dvec3 position_, forward_, right_, up_;
     double width_, height_;
     double pixel_;  // side of a pixel at unit depth

@@ -5,13 +5,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "src/trace/base-inl.h"
 #include "src/trace/lower_bound-inl.h"
 #include "src/trace/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::trace::HWY_NAMESPACE {
-
-using scene::SurfaceKind;
 
 // An octave is evaluated where the hinted step is below this many of its lattice cells: beyond, its amplitude bound is
 // the least anyway. Speed only; measured minimum of evaluations a ray, flat from 0.2 to 0.4.
@@ -22,34 +21,6 @@ constexpr std::size_t kIdleFraction = 4;
 
 // |f| below this many error bounds is settled in double.
 constexpr float kDoubtful = 4.0f;
-
-template <SurfaceKind kKind>
-inline constexpr bool kIsPlanar = kKind == SurfaceKind::terrain;
-
-// The part of f without noise and its slope along the ray. All bases are linear or convex along a ray, so their
-// tangent is a lower bound.
-struct Base {
-    FloatVec value, slope;
-};
-
-template <SurfaceKind kKind>
-HWY_INLINE Base base_at(const Field& field, const WidePoint& x, const WidePoint& direction) {
-    const FloatTag d;
-    if constexpr (kKind == SurfaceKind::isosurface) {
-        return {hn::Set(d, static_cast<float>(field.surface().threshold)), hn::Zero(d)};
-    } else if constexpr (kKind == SurfaceKind::planet) {
-        const Wide squared = mul_add(x.x, x.x, mul_add(x.y, x.y, mul(x.z, x.z)));
-        const Wide along = mul_add(x.x, direction.x, mul_add(x.y, direction.y, mul(x.z, direction.z)));
-        const Wide radius = each_part([](auto v) HWY_ATTR { return hn::Sqrt(v); }, squared);
-        const Wide slope =
-            each_part([](auto a, auto r) HWY_ATTR { return hn::Div(a, hn::Max(r, hn::Set(DoubleTag(), 1e-300))); },
-                      along, radius);
-        const DoubleVec mean = hn::Set(DoubleTag(), field.surface().radius);
-        return {to_float(each_part([&](auto r) HWY_ATTR { return hn::Sub(r, mean); }, radius)), to_float(slope)};
-    } else {
-        return {to_float(x.y), to_float(direction.y)};
-    }
-}
 
 // What one step learns of every lane.
 struct Evaluation {
@@ -237,7 +208,8 @@ HWY_INLINE void refill(const Field& field, const TracePlan& plan, std::span<cons
             const Ray& ray = rays[next];
             const Interval inside = field.clip(ray.origin, ray.direction, ray.limit);
             hits[next] = Hit{};
-            if (inside.begin < inside.end) take_ray(packet, lane, ray, next, inside, plan, field.is_planar_noise());
+            if (std::max(inside.begin, ray.start) < inside.end)
+                take_ray(packet, lane, ray, next, inside, plan, field.is_planar_noise());
             ++next;
         }
     }

@@ -56,18 +56,18 @@ HWY_INLINE void take_ray(Packet& packet, std::size_t lane, const Ray& ray, std::
         packet.noise_shift[a][lane] = ray.noise_shift[a];
         packet.reach = std::max(packet.reach, std::abs(ray.origin[a] + ray.noise_shift[a]) + inside.end);
     }
-    packet.s[lane] = packet.s_outside[lane] = inside.begin;
+    packet.s[lane] = packet.s_outside[lane] = std::max(inside.begin, ray.start);
     packet.end[lane] = inside.end;
     packet.delta0[lane] = ray.delta0;
     packet.delta_slope[lane] = ray.delta_slope;
     packet.speed[lane] = domain_speed(is_planar, ray.direction);
-    packet.hint[lane] = plan.first_hint;
+    packet.hint[lane] = ray.hint > 0.0f ? ray.hint : plan.first_hint;
     packet.active[lane] = 1.0f;
     packet.evaluations[lane] = 0;
     packet.steps[lane] = 0;
     packet.step_limit[lane] = ray.step_limit;
     packet.ray[lane] = index;
-    packet.enters_bound[lane] = inside.enters_bound;
+    packet.enters_bound[lane] = inside.enters_bound && inside.begin >= ray.start;
     ++packet.active_count;
 }
 

@@ -21,6 +21,8 @@ struct Ray {
     double limit = 0.0;
     double delta0 = 0.0;
     double delta_slope = 0.0;
+    double start = 0.0;  // f > 0 in [0, start) or wherever a bound does not cut it off
+    float hint = 0.0f;   // step length to begin with; 0: unknown. Speed only
     std::uint32_t step_limit = kStepLimit;
 };
 

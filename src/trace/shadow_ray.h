@@ -17,6 +17,8 @@ inline Ray shadow_ray(const Ray& seen, const Hit& hit, const glm::dvec3& normal,
     ray.origin += hit.s_outside * seen.direction + kShadowLift * size * normal;
     ray.delta0 += seen.delta_slope * hit.s;
     ray.direction = to_light;
+    ray.start = 0.0;
+    ray.hint = 0.0f;
     return ray;
 }
 

@@ -1,0 +1,55 @@
+// The beam around all rays through a screen cell.
+#pragma once
+
+#include <optional>
+
+#include "src/render/screen_cells.h"
+#include "src/scene/scene.h"
+#include "src/trace/beam.h"
+#include "src/trace/camera.h"
+#include "src/trace/field.h"
+#include "src/trace/placement.h"
+
+namespace strata::render {
+
+// A ray's point at distance s of its origin has an axis coordinate of at most s + shift, and at least
+// s * cosine - shift.
+struct CellBeam {
+    trace::Beam beam;
+    double shift = 0.0;
+    double cosine = 1.0;
+};
+
+class CellBeams {
+  public:
+    CellBeams(const scene::Scene& scene, const trace::Camera& camera, const trace::Placement& placement,
+              const trace::Field& field);
+
+    // In the surface's coordinates. None where the cone would be too wide.
+    std::optional<CellBeam> around(const ScreenCell& cell) const;
+
+    // How far the surface moves over the screen in that time, at the centre of the picture. px; an estimate.
+    double blur(const scene::TimeSpan& time) const;
+
+  private:
+    // How rays of the same (u, v) at other times than the middle of an interval differ.
+    struct Sweep {
+        double shift = 0.0;  // of every point that can be solid
+        double angle = 0.0;  // of directions, radians
+        double noise = 0.0;  // of the noise
+    };
+    Sweep sweep(double half_seconds) const;
+    double enters(const trace::Beam& beam, double angle) const;
+
+    const scene::Surface& surface_;
+    const trace::Camera& camera_;
+    const trace::Placement& placement_;
+    const trace::Field& field_;
+    double limit_;           // of rays, in the surface's units
+    double bounding_ball_;   // radius around the surface's origin that holds all that is solid; infinite where none does
+    double eye_distance_;    // from the surface's origin, in its units
+    double pixel_angle_;     // at the picture's centre
+    double spin_rad_per_s_;
+};
+
+}  // namespace strata::render

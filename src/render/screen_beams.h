@@ -1,0 +1,59 @@
+// Up to where the rays through each part of the screen are free of the surface: beams around the cells of the
+// hierarchy, each begun where its parent's ended.
+//
+// What a sample gets depends on its own cell alone, never on the other samples.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "src/render/cell_beam.h"
+#include "src/render/image_function.h"
+#include "src/render/screen_cells.h"
+#include "src/trace/beam_tracer.h"
+
+namespace strata::render {
+
+// The samples of one cell whose beam was followed to its end.
+struct BeamedCell {
+    std::uint32_t first = 0;  // samples.order[first, last)
+    std::uint32_t last = 0;
+    bool misses = false;  // its rays meet nothing
+    double start = 0.0;   // its rays are free up to this distance
+    float hint = 0.0f;    // step length to go on with
+};
+
+// Memory is reused from call to call.
+struct BeamedSamples {
+    SortedSamples samples;
+    std::vector<BeamedCell> cells;  // in the samples' order
+
+    struct Node {
+        std::uint32_t first, last;
+        double reached;  // its rays are free up to this distance
+        float hint;
+    };
+    std::vector<Node> nodes, children;
+    std::vector<CellBeam> cell_beams;
+    std::vector<trace::Beam> beams;
+    std::vector<trace::BeamEnd> ends;
+};
+
+class ScreenBeams {
+  public:
+    ScreenBeams(const scene::Scene& scene, const trace::Camera& camera, const trace::Placement& placement,
+                const trace::Field& field);
+
+    void trace(const SampleBatch& batch, BeamedSamples& out, trace::TraceCounters& counters) const;
+
+  private:
+    void split(int level, BeamedSamples& out) const;
+    void keep(int level, BeamedSamples& out) const;
+
+    CellBeams around_;
+    trace::BeamTracer tracer_;
+    ScreenHierarchy hierarchy_;
+};
+
+}  // namespace strata::render

@@ -1,0 +1,138 @@
+#include "src/render/screen_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace strata::render {
+
+namespace {
+
+constexpr double kCoarsest = 64.0;  // px, at least
+
+// Columns and rows of the finest cells are counted from here, so that none is negative; kAxisBits hold them.
+constexpr int kAxisBits = 26;
+constexpr double kBias = 1 << (kAxisBits - 1);
+
+// Covers the rounding of a time's interval.
+constexpr double kTimeSlack = 1e-9;
+
+std::uint64_t spread_bits(std::uint64_t x) {
+    x = (x | x << 16) & 0x0000'ffff'0000'ffff;
+    x = (x | x << 8) & 0x00ff'00ff'00ff'00ff;
+    x = (x | x << 4) & 0x0f0f'0f0f'0f0f'0f0f;
+    x = (x | x << 2) & 0x3333'3333'3333'3333;
+    return (x | x << 1) & 0x5555'5555'5555'5555;
+}
+
+std::uint64_t gather_bits(std::uint64_t x) {
+    x &= 0x5555'5555'5555'5555;
+    x = (x | x >> 1) & 0x3333'3333'3333'3333;
+    x = (x | x >> 2) & 0x0f0f'0f0f'0f0f'0f0f;
+    x = (x | x >> 4) & 0x00ff'00ff'00ff'00ff;
+    x = (x | x >> 8) & 0x0000'ffff'0000'ffff;
+    return (x | x >> 16) & 0xffff'ffff;
+}
+
+// Further out than kBias cells all share the outermost: their beams hold for none of them, so see usable().
+std::uint64_t column_of(double x) {
+    return static_cast<std::uint64_t>(std::clamp(std::floor(x) + kBias, 0.0, 2.0 * kBias - 1.0));
+}
+
+constexpr std::uint64_t low_bits(std::uint64_t x, int count) { return x & ((std::uint64_t{1} << count) - 1); }
+
+}  // namespace
+
+ScreenHierarchy::ScreenHierarchy(double leaf, int time_bits, const scene::TimeSpan& shutter)
+    : leaf_(leaf),
+      levels_(1),
+      time_bits_(std::clamp(time_bits, 0, kMostTimeBits)),
+      shutter_(shutter),
+      interval_((shutter.last - shutter.first) / (1 << time_bits_)) {
+    for (double side = leaf; side < kCoarsest; side *= 1 << kLevelBits) ++levels_;
+    while (time_bits_at(levels_ - 1) > 0) ++levels_;
+}
+
+double ScreenHierarchy::side(int level) const { return std::ldexp(leaf_, kLevelBits * level); }
+
+int ScreenHierarchy::time_bits_at(int level) const { return std::max(0, time_bits_ - kLevelBits * level); }
+
+int ScreenHierarchy::shift(int level) const {
+    return 2 * kLevelBits * level + time_bits_ - time_bits_at(level);
+}
+
+// From the top: the coarsest cell's column and row interleaved, then for each finer level two bits of each and the
+// level's bits of the time.
+std::uint64_t ScreenHierarchy::code(double u, double v, double t) const {
+    const std::uint64_t square = spread_bits(column_of(u / leaf_)) | spread_bits(column_of(v / leaf_)) << 1;
+    if (time_bits_ == 0) return square;
+    const double most = (1 << time_bits_) - 1;
+    const auto time = static_cast<std::uint64_t>(std::clamp(std::floor((t - shutter_.first) / interval_), 0.0, most));
+    std::uint64_t code = square >> (2 * kLevelBits * (levels_ - 1));
+    for (int level = levels_ - 2; level >= 0; --level) {
+        const int new_bits = time_bits_at(level) - time_bits_at(level + 1);
+        code = code << (2 * kLevelBits) | low_bits(square >> (2 * kLevelBits * level), 2 * kLevelBits);
+        code = code << new_bits | low_bits(time >> (time_bits_ - time_bits_at(level)), new_bits);
+    }
+    return code;
+}
+
+ScreenCell ScreenHierarchy::cell(std::uint64_t shifted, int level) const {
+    std::uint64_t square = 0, time = 0;
+    int square_shift = 0, time_shift = 0;
+    for (int at = level; at < levels_ - 1 && time_bits_ > 0; ++at) {
+        const int new_bits = time_bits_at(at) - time_bits_at(at + 1);
+        time |= low_bits(shifted, new_bits) << time_shift;
+        time_shift += new_bits;
+        shifted >>= new_bits;
+        square |= low_bits(shifted, 2 * kLevelBits) << square_shift;
+        square_shift += 2 * kLevelBits;
+        shifted >>= 2 * kLevelBits;
+    }
+    square |= shifted << square_shift;
+    const double bias = std::ldexp(kBias, -kLevelBits * level);
+    ScreenCell cell;
+    cell.side = side(level);
+    cell.x = (static_cast<double>(gather_bits(square)) - bias) * cell.side;
+    cell.y = (static_cast<double>(gather_bits(square >> 1)) - bias) * cell.side;
+    const double length = interval_ * static_cast<double>(1 << (time_bits_ - time_bits_at(level)));
+    const double first = shutter_.first + static_cast<double>(time) * length;
+    const double slack = kTimeSlack * (shutter_.last - shutter_.first);
+    cell.time = {first - slack, first + length + slack};
+    return cell;
+}
+
+void SortedSamples::sort_by_digit(int shift, std::uint64_t least) {
+    constexpr int kDigit = 11;
+    std::array<std::uint32_t, (1u << kDigit) + 1> start{};
+    const auto digit = [&](std::uint64_t code) { return low_bits((code - least) >> shift, kDigit); };
+    for (const std::uint64_t code : codes) ++start[digit(code) + 1];
+    for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+        const std::uint32_t to = start[digit(codes[i])]++;
+        scratch_codes_[to] = codes[i];
+        scratch_order_[to] = order[i];
+    }
+    codes.swap(scratch_codes_);
+    order.swap(scratch_order_);
+}
+
+void SortedSamples::sort(const ScreenHierarchy& hierarchy, std::span<const double> u, std::span<const double> v,
+                         std::span<const double> t) {
+    codes.resize(u.size());
+    order.resize(u.size());
+    scratch_codes_.resize(u.size());
+    scratch_order_.resize(u.size());
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        codes[i] = hierarchy.code(u[i], v[i], t[i]);
+        order[i] = static_cast<std::uint32_t>(i);
+    }
+    if (codes.empty()) return;
+    const auto [least, most] = std::ranges::minmax_element(codes);
+    const std::uint64_t first = *least;
+    const int bits = static_cast<int>(std::bit_width(*most - first));
+    for (int shift = 0; shift < bits; shift += 11) sort_by_digit(shift, first);
+}
+
+}  // namespace strata::render

@@ -1,0 +1,255 @@
+#include "src/trace/beam_tracer.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/trace/beam_tracer.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "src/trace/base-inl.h"
+#include "src/trace/beam_bound-inl.h"
+#include "src/trace/packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::trace::HWY_NAMESPACE {
+
+// As in fast_tracer.cpp, of the step and the beam's radius together. Speed only.
+constexpr float kBeamCellsAhead = 0.3f;
+
+// A beam ends once a step gains less than this many radii: narrower ones go further at less cost. Speed only.
+constexpr float kLeastGain = 0.5f;
+
+// A beam may end anywhere; one that grazes for so long leaves the rest to narrower ones.
+constexpr int kMostBeamSteps = 200;
+
+struct BeamPacket {
+    alignas(HWY_MAX_BYTES) double origin[3][kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) double direction[3][kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) double noise_shift[3][kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) double s[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) double radius0[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) double spread[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) float noise_radius[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) float speed[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) float hint[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) float active[kMaxLanes] = {};
+    double limit[kMaxLanes] = {};
+    int steps[kMaxLanes] = {};
+    std::size_t beam[kMaxLanes] = {};
+    double reach = 0.0;
+    std::size_t active_count = 0;
+};
+
+struct BeamCache {
+    std::array<OctaveSample, noise::kMaxOctaves> sample;
+    std::array<FloatVec, noise::kMaxOctaves> slope;
+    std::array<FloatVec, noise::kMaxOctaves> used;  // 1 or 0
+    std::size_t count = 0;
+};
+
+// What one step knows of every lane.
+struct BeamPoint {
+    FloatPoint axis;
+    FloatPoint base_gradient;
+    FloatVec certain;  // lower bound of f on the axis
+};
+
+// The octaves that the bounds rest on are left in `cache`.
+template <SurfaceKind kKind, bool kDrifts>
+HWY_INLINE FloatVec evaluate_beam(const TracePlan& plan, const Field& field, const BeamPacket& packet,
+                                  const WidePoint& x, const WidePoint& direction, FloatVec radius, BeamCache& cache,
+                                  TraceCounters& counters) {
+    const FloatTag d;
+    const FloatPoint axis = to_float(direction);
+    const Base base = base_at<kKind>(field, x, direction);
+    const FloatVec error =
+        hn::MulAdd(hn::Abs(base.value), hn::Set(d, plan.error_relative), hn::Set(d, plan.error_absolute));
+    const FloatVec reach = hn::MulAdd(hn::Load(d, packet.hint), hn::Load(d, packet.speed), radius);
+    WidePoint noise_x = x;
+    if constexpr (kDrifts) noise_x = add(x, load_point(packet.noise_shift));
+    FloatVec f = base.value, unseen = hn::Zero(d);
+    auto open = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
+    cache.count = 0;
+    for (const TraceOctave& octave : plan.octaves) {
+        const FloatVec rest = hn::Set(d, octave.rest), wave = hn::Set(d, octave.wave);
+        const auto doubtful = hn::Le(hn::Sub(f, rest), error);
+        const auto wanted =
+            hn::And(open, hn::Or(doubtful, hn::Le(hn::Mul(wave, reach), hn::Set(d, kBeamCellsAhead))));
+        unseen = hn::IfThenElse(hn::AndNot(wanted, open), rest, unseen);
+        open = wanted;
+        if (hn::AllFalse(d, open)) break;
+        const OctaveSample n = sample_octave<kIsPlanar<kKind>>(octave, noise_x, packet.reach);
+        FloatVec slope = hn::MulAdd(n.dx, axis.x, hn::Mul(n.dz, axis.z));
+        if constexpr (!kIsPlanar<kKind>) slope = hn::MulAdd(n.dy, axis.y, slope);
+        f = hn::NegMulAdd(hn::IfThenElseZero(open, hn::Set(d, octave.amplitude)), n.value, f);
+        cache.sample[cache.count] = n;
+        cache.slope[cache.count] = slope;
+        cache.used[cache.count++] = hn::IfThenElseZero(open, hn::Set(d, 1.0f));
+        counters.noise_evaluations += hn::CountTrue(d, open);
+        counters.executed_lanes += hn::Lanes(d);
+    }
+    return hn::Sub(f, hn::Add(unseen, error));
+}
+
+// The longest step that is certified to keep the whole beam outside the surface, by bounds chosen for span.ahead.
+// noise_radius: how much of span.radius is the drifting noise's own.
+template <SurfaceKind kKind, bool kDrifts>
+HWY_INLINE FloatVec solve_beam(const TracePlan& plan, const BeamCache& cache, const BeamPoint& at,
+                               const BeamSpan& span, FloatVec noise_radius, FloatVec* slope) {
+    const FloatTag d;
+    BeamBounds bounds = no_beam_bounds();
+    for (std::size_t k = 0; k < cache.count; ++k) {
+        bounds = add_octave_beam<kIsPlanar<kKind>, kDrifts>(bounds, plan, plan.octaves[k], cache.sample[k],
+                                                            cache.slope[k], span, hn::Gt(cache.used[k], hn::Zero(d)));
+    }
+    // The gradient across the axis, componentwise so that nothing cancels. Drift also leads along the axis.
+    const FloatPoint gradient = {hn::Sub(at.base_gradient.x, bounds.gradient.x),
+                                 hn::Sub(at.base_gradient.y, bounds.gradient.y),
+                                 hn::Sub(at.base_gradient.z, bounds.gradient.z)};
+    const FloatVec along = dot(gradient, at.axis);
+    const FloatPoint across = {hn::NegMulAdd(along, at.axis.x, gradient.x),
+                               hn::NegMulAdd(along, at.axis.y, gradient.y),
+                               hn::NegMulAdd(along, at.axis.z, gradient.z)};
+    const FloatPoint& sideways = kDrifts ? gradient : across;
+    const FloatVec error = hn::Set(d, plan.slope_error);
+    const FloatVec pull =
+        hn::MulAdd(hn::Sqrt(dot(sideways, sideways)), hn::Set(d, static_cast<float>(kRoundUp)), error);
+    FloatVec start = hn::Sub(at.certain, hn::MulAdd(pull, span.radius, bounds.drop));
+    // The base does not drift: |grad base| <= 1 undoes what `pull` assumed.
+    if constexpr (kDrifts) start = hn::NegMulAdd(noise_radius, hn::Set(d, static_cast<float>(kRoundUp)), start);
+    const FloatVec base_slope =
+        hn::Sub(hn::Sub(dot(at.base_gradient, at.axis), error), hn::Mul(pull, span.spread));
+    const FloatVec root = first_root(start, hn::MulAdd(base_slope, span.ahead, bounds.slope), bounds.bend);
+    *slope = along;
+    return hn::Mul(root, span.ahead);
+}
+
+HWY_INLINE void take_beam(BeamPacket& packet, std::size_t lane, const Beam& beam, std::size_t index,
+                          const TracePlan& plan, bool is_planar) {
+    for (int a = 0; a < 3; ++a) {
+        packet.origin[a][lane] = beam.origin[a];
+        packet.direction[a][lane] = beam.direction[a];
+        packet.noise_shift[a][lane] = beam.noise_shift[a];
+        packet.reach = std::max(packet.reach, std::abs(beam.origin[a] + beam.noise_shift[a]) + beam.limit);
+    }
+    packet.s[lane] = beam.start;
+    packet.limit[lane] = beam.limit;
+    packet.radius0[lane] = beam.radius0 + beam.noise_radius;
+    packet.spread[lane] = beam.spread;
+    packet.noise_radius[lane] = static_cast<float>(beam.noise_radius);
+    packet.speed[lane] = domain_speed(is_planar, beam.direction);
+    packet.hint[lane] = beam.hint > 0.0f ? beam.hint : plan.first_hint;
+    packet.active[lane] = 1.0f;
+    packet.steps[lane] = 0;
+    packet.beam[lane] = index;
+    ++packet.active_count;
+}
+
+// One step of every active lane; those that gained too little, or passed their limit, report and become idle.
+template <SurfaceKind kKind, bool kDrifts>
+HWY_INLINE void step_beams(const Field& field, const TracePlan& plan, BeamPacket& packet, std::span<BeamEnd> ends,
+                           TraceCounters& counters) {
+    const FloatTag d;
+    const WidePoint direction = load_point(packet.direction);
+    const Wide s = load_wide(packet.s);
+    const WidePoint x = point_at(load_point(packet.origin), direction, s);
+    const FloatVec up = hn::Set(d, static_cast<float>(kRoundUp));
+    const Wide spread = load_wide(packet.spread);
+    const FloatVec radius = hn::Mul(to_float(mul_add(spread, s, load_wide(packet.radius0))), up);
+    const FloatVec noise_radius = hn::Load(d, packet.noise_radius);
+    const FloatVec speed = hn::Load(d, packet.speed), hint = hn::Load(d, packet.hint);
+    const FloatVec least_gain = hn::Mul(radius, hn::Set(d, kLeastGain));
+
+    BeamCache cache;
+    const FloatVec certain =
+        evaluate_beam<kKind, kDrifts>(plan, field, packet, x, direction, radius, cache, counters);
+    const BeamPoint at{to_float(direction), base_gradient_at<kKind>(x), certain};
+    BeamSpan span{hint, hn::Mul(hint, speed), radius, hn::Mul(to_float(spread), up)};
+    FloatVec slope;
+    const FloatVec first = solve_beam<kKind, kDrifts>(plan, cache, at, span, noise_radius, &slope);
+    const FloatVec inverse_lipschitz = hn::Set(d, plan.inverse_lipschitz);
+    const FloatVec least = hn::Sub(hn::Mul(certain, inverse_lipschitz), radius);
+    span.ahead = hn::Min(hn::Max(hn::Max(first, least_gain), least), hn::Set(d, 1e15f));
+    span.along = hn::Mul(span.ahead, speed);
+    const FloatVec safe =
+        hn::Max(first, solve_beam<kKind, kDrifts>(plan, cache, at, span, noise_radius, &slope));
+    hn::Store(hn::Min(hn::Max(safe, hn::Max(least_gain, hn::Set(d, 1e-30f))), hn::Set(d, 1e15f)), d, packet.hint);
+
+    alignas(HWY_MAX_BYTES) double clear[kMaxLanes];
+    alignas(HWY_MAX_BYTES) float gain[kMaxLanes], enough[kMaxLanes], slopes[kMaxLanes];
+    store_wide(add(s, to_wide(safe)), clear);
+    hn::Store(safe, d, gain);
+    hn::Store(least_gain, d, enough);
+    hn::Store(slope, d, slopes);
+    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+        if (packet.active[lane] == 0.0f) continue;
+        ++counters.steps;
+        packet.s[lane] = clear[lane];
+        const bool misses = clear[lane] >= packet.limit[lane];
+        const bool goes_on = gain[lane] > 0.0f && gain[lane] >= enough[lane];
+        if (!misses && goes_on && ++packet.steps[lane] < kMostBeamSteps) continue;
+        ends[packet.beam[lane]] = {clear[lane], packet.hint[lane], slopes[lane], misses};
+        packet.active[lane] = 0.0f;
+        --packet.active_count;
+    }
+}
+
+template <SurfaceKind kKind, bool kDrifts>
+HWY_NOINLINE void trace_beams_of(const Field& field, const TracePlan& plan, std::span<const Beam> beams,
+                                 std::span<BeamEnd> ends, TraceCounters& counters) {
+    const std::size_t lanes = hn::Lanes(FloatTag());
+    BeamPacket packet;
+    for (std::size_t next = 0;;) {
+        for (std::size_t lane = 0; lane < lanes && next < beams.size(); ++lane) {
+            while (packet.active[lane] == 0.0f && next < beams.size()) {
+                const Beam& beam = beams[next];
+                if (beam.start < beam.limit) {
+                    take_beam(packet, lane, beam, next, plan, field.is_planar_noise());
+                } else {
+                    ends[next] = {beam.start, beam.hint, 0.0f, true};
+                }
+                ++next;
+            }
+        }
+        if (packet.active_count == 0) return;
+        step_beams<kKind, kDrifts>(field, plan, packet, ends, counters);
+    }
+}
+
+template <SurfaceKind kKind>
+void trace_beams_kind(const Field& field, const TracePlan& plan, std::span<const Beam> beams,
+                      std::span<BeamEnd> ends, TraceCounters& counters) {
+    if (field.drifts()) {
+        trace_beams_of<kKind, true>(field, plan, beams, ends, counters);
+    } else {
+        trace_beams_of<kKind, false>(field, plan, beams, ends, counters);
+    }
+}
+
+void TraceBeams(const Field& field, const TracePlan& plan, std::span<const Beam> beams, std::span<BeamEnd> ends,
+                TraceCounters& counters) {
+    switch (field.kind()) {
+        case SurfaceKind::terrain:
+            return trace_beams_kind<SurfaceKind::terrain>(field, plan, beams, ends, counters);
+        case SurfaceKind::hyperterrain:
+            return trace_beams_kind<SurfaceKind::hyperterrain>(field, plan, beams, ends, counters);
+        case SurfaceKind::planet:
+            return trace_beams_kind<SurfaceKind::planet>(field, plan, beams, ends, counters);
+        case SurfaceKind::isosurface:
+            return trace_beams_kind<SurfaceKind::isosurface>(field, plan, beams, ends, counters);
+    }
+}
+
+}  // namespace strata::trace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace strata::trace {
+
+HWY_EXPORT(TraceBeams);
+
+void BeamTracer::trace(std::span<const Beam> beams, std::span<BeamEnd> ends, TraceCounters& counters) const {
+    HWY_DYNAMIC_DISPATCH(TraceBeams)(field_, plan_, beams, ends, counters);
+}
+
+}  // namespace strata::trace
+#endif  // HWY_ONCE
