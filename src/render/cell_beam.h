@@ -45,10 +45,10 @@ class CellBeams {
     const trace::Camera& camera_;
     const trace::Placement& placement_;
     const trace::Field& field_;
-    double limit_;           // of rays, in the surface's units
-    double bounding_ball_;   // radius around the surface's origin that holds all that is solid; infinite where none does
-    double eye_distance_;    // from the surface's origin, in its units
-    double pixel_angle_;     // at the picture's centre
+    double limit_;          // of rays, in the surface's units
+    double bounding_ball_;  // radius around the surface's origin that holds all that is solid; infinite where none does
+    double eye_distance_;   // from the surface's origin, in its units
+    double pixel_angle_;    // at the picture's centre
     double spin_rad_per_s_;
 };
 

@@ -58,9 +58,7 @@ double ScreenHierarchy::side(int level) const { return std::ldexp(leaf_, kLevelB
 
 int ScreenHierarchy::time_bits_at(int level) const { return std::max(0, time_bits_ - kLevelBits * level); }
 
-int ScreenHierarchy::shift(int level) const {
-    return 2 * kLevelBits * level + time_bits_ - time_bits_at(level);
-}
+int ScreenHierarchy::shift(int level) const { return 2 * kLevelBits * level + time_bits_ - time_bits_at(level); }
 
 // From the top: the coarsest cell's column and row interleaved, then for each finer level two bits of each and the
 // level's bits of the time.

@@ -108,41 +108,23 @@ void SurfaceImage::trace(std::span<const trace::Ray> rays, std::span<trace::Hit>
     fast_.trace(rays, hits, counters);
 }
 
-void SurfaceImage::gradients(std::span<const glm::dvec3> x, std::span<const glm::dvec3> noise_shift,
-                             std::span<glm::vec3> gradient, trace::TraceCounters& counters) const {
-    if (tracer_ == Tracer::fast) return fast_.gradients(x, noise_shift, gradient, counters);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        gradient[i] = glm::vec3(field_.gradient(x[i], noise_shift.empty() ? glm::dvec3(0.0) : noise_shift[i]));
-    }
-    counters.noise_evaluations += x.size() * field_.octaves().size();
-    counters.executed_lanes += x.size() * field_.octaves().size();
-}
-
 // On the bound the noise has no part in the normal, and is not evaluated.
-void SurfaceImage::gradients_off_bound(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
-                                       std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient,
-                                       trace::TraceCounters& counters) const {
-    std::vector<std::size_t> off_bound;
-    std::vector<glm::dvec3> inner_x, inner_shift;
+void SurfaceImage::gradients(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
+                             std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient,
+                             trace::TraceCounters& counters) const {
+    if (tracer_ == Tracer::fast) return fast_.gradients(hits, x, noise_shift, gradient, counters);
     for (std::size_t i = 0; i < x.size(); ++i) {
         if (hits[i].on_bound) continue;
-        off_bound.push_back(i);
-        inner_x.push_back(x[i]);
-        if (!noise_shift.empty()) inner_shift.push_back(noise_shift[i]);
+        gradient[i] = glm::vec3(field_.gradient(x[i], noise_shift.empty() ? glm::dvec3(0.0) : noise_shift[i]));
+        counters.noise_evaluations += field_.octaves().size();
+        counters.executed_lanes += field_.octaves().size();
     }
-    std::vector<glm::vec3> inner_gradient(inner_x.size());
-    gradients(inner_x, inner_shift, inner_gradient, counters);
-    for (std::size_t i = 0; i < off_bound.size(); ++i) gradient[off_bound[i]] = inner_gradient[i];
 }
 
 void SurfaceImage::normals(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
                            std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> normal,
                            trace::TraceCounters& counters) const {
-    if (std::ranges::any_of(hits, &trace::Hit::on_bound)) {
-        gradients_off_bound(hits, x, noise_shift, normal, counters);
-    } else {
-        gradients(x, noise_shift, normal, counters);
-    }
+    gradients(hits, x, noise_shift, normal, counters);
     for (std::size_t i = 0; i < x.size(); ++i) {
         if (hits[i].on_bound) normal[i] = glm::vec3(field_.bound_normal(x[i]));
         const float length = glm::length(normal[i]);

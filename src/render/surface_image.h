@@ -60,11 +60,9 @@ class SurfaceImage final : public ImageFunction {
                          Counters& counters) const;
     void evaluate_chunk(const SampleBatch& samples, std::span<glm::vec3> radiance, Chunk& chunk,
                         Counters& counters) const;
-    void gradients(std::span<const glm::dvec3> x, std::span<const glm::dvec3> noise_shift,
-                   std::span<glm::vec3> gradient, trace::TraceCounters& counters) const;
-    void gradients_off_bound(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
-                             std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient,
-                             trace::TraceCounters& counters) const;
+    void gradients(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
+                   std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient,
+                   trace::TraceCounters& counters) const;
     void shadow(Chunk& chunk, Counters& counters, trace::TraceCounters& traced) const;
     glm::vec3 shade_hit(const Lit& lit) const;
     trace::Ray camera_ray(const trace::Camera& camera, double u, double v) const;

@@ -72,8 +72,7 @@ HWY_INLINE FloatVec evaluate_beam(const TracePlan& plan, const Field& field, con
     for (const TraceOctave& octave : plan.octaves) {
         const FloatVec rest = hn::Set(d, octave.rest), wave = hn::Set(d, octave.wave);
         const auto doubtful = hn::Le(hn::Sub(f, rest), error);
-        const auto wanted =
-            hn::And(open, hn::Or(doubtful, hn::Le(hn::Mul(wave, reach), hn::Set(d, kBeamCellsAhead))));
+        const auto wanted = hn::And(open, hn::Or(doubtful, hn::Le(hn::Mul(wave, reach), hn::Set(d, kBeamCellsAhead))));
         unseen = hn::IfThenElse(hn::AndNot(wanted, open), rest, unseen);
         open = wanted;
         if (hn::AllFalse(d, open)) break;
@@ -93,8 +92,8 @@ HWY_INLINE FloatVec evaluate_beam(const TracePlan& plan, const Field& field, con
 // The longest step that is certified to keep the whole beam outside the surface, by bounds chosen for span.ahead.
 // noise_radius: how much of span.radius is the drifting noise's own.
 template <SurfaceKind kKind, bool kDrifts>
-HWY_INLINE FloatVec solve_beam(const TracePlan& plan, const BeamCache& cache, const BeamPoint& at,
-                               const BeamSpan& span, FloatVec noise_radius, FloatVec* slope) {
+HWY_INLINE FloatVec solve_beam(const TracePlan& plan, const BeamCache& cache, const BeamPoint& at, const BeamSpan& span,
+                               FloatVec noise_radius, FloatVec* slope) {
     const FloatTag d;
     BeamBounds bounds = no_beam_bounds();
     for (std::size_t k = 0; k < cache.count; ++k) {
@@ -106,8 +105,7 @@ HWY_INLINE FloatVec solve_beam(const TracePlan& plan, const BeamCache& cache, co
                                  hn::Sub(at.base_gradient.y, bounds.gradient.y),
                                  hn::Sub(at.base_gradient.z, bounds.gradient.z)};
     const FloatVec along = dot(gradient, at.axis);
-    const FloatPoint across = {hn::NegMulAdd(along, at.axis.x, gradient.x),
-                               hn::NegMulAdd(along, at.axis.y, gradient.y),
+    const FloatPoint across = {hn::NegMulAdd(along, at.axis.x, gradient.x), hn::NegMulAdd(along, at.axis.y, gradient.y),
                                hn::NegMulAdd(along, at.axis.z, gradient.z)};
     const FloatPoint& sideways = kDrifts ? gradient : across;
     const FloatVec error = hn::Set(d, plan.slope_error);
@@ -116,8 +114,7 @@ HWY_INLINE FloatVec solve_beam(const TracePlan& plan, const BeamCache& cache, co
     FloatVec start = hn::Sub(at.certain, hn::MulAdd(pull, span.radius, bounds.drop));
     // The base does not drift: |grad base| <= 1 undoes what `pull` assumed.
     if constexpr (kDrifts) start = hn::NegMulAdd(noise_radius, hn::Set(d, static_cast<float>(kRoundUp)), start);
-    const FloatVec base_slope =
-        hn::Sub(hn::Sub(dot(at.base_gradient, at.axis), error), hn::Mul(pull, span.spread));
+    const FloatVec base_slope = hn::Sub(hn::Sub(dot(at.base_gradient, at.axis), error), hn::Mul(pull, span.spread));
     const FloatVec root = first_root(start, hn::MulAdd(base_slope, span.ahead, bounds.slope), bounds.bend);
     *slope = along;
     return hn::Mul(root, span.ahead);
@@ -160,8 +157,7 @@ HWY_INLINE void step_beams(const Field& field, const TracePlan& plan, BeamPacket
     const FloatVec least_gain = hn::Mul(radius, hn::Set(d, kLeastGain));
 
     BeamCache cache;
-    const FloatVec certain =
-        evaluate_beam<kKind, kDrifts>(plan, field, packet, x, direction, radius, cache, counters);
+    const FloatVec certain = evaluate_beam<kKind, kDrifts>(plan, field, packet, x, direction, radius, cache, counters);
     const BeamPoint at{to_float(direction), base_gradient_at<kKind>(x), certain};
     BeamSpan span{hint, hn::Mul(hint, speed), radius, hn::Mul(to_float(spread), up)};
     FloatVec slope;
@@ -170,8 +166,7 @@ HWY_INLINE void step_beams(const Field& field, const TracePlan& plan, BeamPacket
     const FloatVec least = hn::Sub(hn::Mul(certain, inverse_lipschitz), radius);
     span.ahead = hn::Min(hn::Max(hn::Max(first, least_gain), least), hn::Set(d, 1e15f));
     span.along = hn::Mul(span.ahead, speed);
-    const FloatVec safe =
-        hn::Max(first, solve_beam<kKind, kDrifts>(plan, cache, at, span, noise_radius, &slope));
+    const FloatVec safe = hn::Max(first, solve_beam<kKind, kDrifts>(plan, cache, at, span, noise_radius, &slope));
     hn::Store(hn::Min(hn::Max(safe, hn::Max(least_gain, hn::Set(d, 1e-30f))), hn::Set(d, 1e15f)), d, packet.hint);
 
     alignas(HWY_MAX_BYTES) double clear[kMaxLanes];
@@ -216,8 +211,8 @@ HWY_NOINLINE void trace_beams_of(const Field& field, const TracePlan& plan, std:
 }
 
 template <SurfaceKind kKind>
-void trace_beams_kind(const Field& field, const TracePlan& plan, std::span<const Beam> beams,
-                      std::span<BeamEnd> ends, TraceCounters& counters) {
+void trace_beams_kind(const Field& field, const TracePlan& plan, std::span<const Beam> beams, std::span<BeamEnd> ends,
+                      TraceCounters& counters) {
     if (field.drifts()) {
         trace_beams_of<kKind, true>(field, plan, beams, ends, counters);
     } else {

@@ -40,8 +40,7 @@ CameraCone Camera::cone(double u, double v, double side) const {
     const double squared = glm::dot(centre, centre), length = std::sqrt(squared);
     const double reach = std::sqrt(0.5) * side * pixel_ * kPad;
     const double ahead = squared - std::sqrt(std::max(0.0, squared - 1.0)) * reach * kPad;
-    const double tangent =
-        ahead > 0.0 ? length * reach / ahead * kPad : std::numeric_limits<double>::infinity();
+    const double tangent = ahead > 0.0 ? length * reach / ahead * kPad : std::numeric_limits<double>::infinity();
     return {centre / length, tangent};
 }
 

@@ -28,9 +28,11 @@ struct Evaluation {
     FloatVec error;  // of f
     FloatVec slope;  // of f along the ray; of use where all octaves were evaluated
     FloatVec base_slope;
-    FloatVec rest;  // bound of the octaves not evaluated
+    FloatPoint gradient;  // of the evaluated octaves, of f's sign
+    FloatVec rest;        // bound of the octaves not evaluated
     OctaveBounds bounds;
     hn::Mask<FloatTag> complete;  // all octaves were evaluated
+    hn::Mask<FloatTag> inside;    // f < 0 whatever the octaves not evaluated
     WordVec octaves;              // how many were
 };
 
@@ -50,16 +52,21 @@ HWY_INLINE Evaluation evaluate(const TracePlan& plan, const Field& field, const 
     const Base base = base_at<kKind>(field, x, direction);
     WidePoint noise_x = x;
     if constexpr (kDrifts) noise_x = add(x, load_point(packet.noise_shift));
-    Evaluation at{base.value, hn::Zero(d), base.slope, base.slope, hn::Zero(d), no_bounds(), {}, hn::Zero(dw)};
+    Evaluation at{base.value,  hn::Zero(d), base.slope, base.slope, base_gradient_at<kKind>(x),
+                  hn::Zero(d), no_bounds(), {},         {},         hn::Zero(dw)};
     at.error = hn::MulAdd(hn::Abs(base.value), hn::Set(d, plan.error_relative), hn::Set(d, plan.error_absolute));
     auto open = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
+    at.inside = hn::Lt(hn::Zero(d), hn::Zero(d));
     cache.count = 0;
     for (const TraceOctave& octave : plan.octaves) {
-        // Stop where f is positive whatever the rest and the octave is too fine for the step to gain by it.
+        // Stop where f is negative whatever the rest, or positive and the octave is too fine for the step to gain by
+        // it.
         const FloatVec rest = hn::Set(d, octave.rest), wave = hn::Set(d, octave.wave);
         const FloatVec ws = hn::Mul(wave, span);
         const auto doubtful = hn::Le(hn::Sub(at.f, rest), at.error);
-        const auto wanted = hn::And(open, hn::Or(doubtful, hn::Le(ws, hn::Set(d, kCellsAhead))));
+        const auto certain = hn::And(open, hn::Lt(hn::Add(at.f, rest), hn::Neg(at.error)));
+        const auto wanted = hn::AndNot(certain, hn::And(open, hn::Or(doubtful, hn::Le(ws, hn::Set(d, kCellsAhead)))));
+        at.inside = hn::Or(at.inside, certain);
         at.rest = hn::IfThenElse(hn::AndNot(wanted, open), rest, at.rest);
         open = wanted;
         if (hn::AllFalse(d, open)) break;
@@ -68,7 +75,11 @@ HWY_INLINE Evaluation evaluate(const TracePlan& plan, const Field& field, const 
         if constexpr (!kIsPlanar<kKind>) slope = hn::MulAdd(n.dy, dy, slope);
         const FloatVec amplitude = hn::IfThenElseZero(open, hn::Set(d, octave.amplitude));
         at.f = hn::NegMulAdd(amplitude, n.value, at.f);
-        at.slope = hn::NegMulAdd(hn::Mul(amplitude, wave), slope, at.slope);
+        const FloatVec pull = hn::Mul(amplitude, wave);
+        at.slope = hn::NegMulAdd(pull, slope, at.slope);
+        at.gradient.x = hn::NegMulAdd(pull, n.dx, at.gradient.x);
+        if constexpr (!kIsPlanar<kKind>) at.gradient.y = hn::NegMulAdd(pull, n.dy, at.gradient.y);
+        at.gradient.z = hn::NegMulAdd(pull, n.dz, at.gradient.z);
         at.bounds = add_octave(at.bounds, plan, octave, n.value, slope, hn::Mul(wave, hint), ws, open);
         at.octaves = hn::Add(at.octaves, hn::IfThenElseZero(hn::RebindMask(dw, open), hn::Set(dw, 1u)));
         cache.value[cache.count] = n.value;
@@ -172,12 +183,17 @@ HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, 
     const Wide delta = mul_add(load_wide(packet.delta_slope), s, load_wide(packet.delta0));
     const FloatVec delta_float = to_float(delta);
     const FloatVec safe = safe_step(plan, packet, at, delta_float, cache);
-    const auto inside = hn::And(at.complete, hn::Le(at.f, hn::Zero(d)));
+    const auto inside = hn::Or(at.inside, hn::And(at.complete, hn::Le(at.f, hn::Zero(d))));
 
-    alignas(HWY_MAX_BYTES) float f[kMaxLanes], slope[kMaxLanes], hit[kMaxLanes];
+    alignas(HWY_MAX_BYTES) float f[kMaxLanes], slope[kMaxLanes], hit[kMaxLanes], gradient[3][kMaxLanes];
+    alignas(HWY_MAX_BYTES) std::uint32_t octaves[kMaxLanes];
     alignas(HWY_MAX_BYTES) double outside[kMaxLanes], landing[kMaxLanes];
     hn::Store(at.f, d, f);
     hn::Store(at.slope, d, slope);
+    hn::Store(at.gradient.x, d, gradient[0]);
+    hn::Store(at.gradient.y, d, gradient[1]);
+    hn::Store(at.gradient.z, d, gradient[2]);
+    hn::Store(at.octaves, dw, octaves);
     hn::Store(hn::IfThenElseZero(inside, hn::Set(d, 1.0f)), d, hit);
     hn::Store(hn::Min(hn::Max(hn::Max(safe, delta_float), hn::Set(d, 1e-30f)), hn::Set(d, 1e15f)), d, packet.hint);
     const Wide clear = add(s, to_wide(safe));
@@ -191,7 +207,11 @@ HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, 
         const bool is_miss = !is_hit && landing[lane] >= packet.end[lane];
         if (is_hit || is_miss || packet.steps[lane] >= packet.step_limit[lane]) {
             const HitState state = is_hit ? HitState::hit : is_miss ? HitState::miss : HitState::unresolved;
-            report(packet, lane, state, f[lane], slope[lane], hits[packet.ray[lane]]);
+            Hit& found = hits[packet.ray[lane]];
+            report(packet, lane, state, f[lane], slope[lane], found);
+            found.gradient = {gradient[0][lane], gradient[1][lane], gradient[2][lane]};
+            // The normal of a bound owes nothing to the noise.
+            found.octaves = found.on_bound ? static_cast<std::uint32_t>(plan.octaves.size()) : octaves[lane];
             drop_lane(packet, lane);
             continue;
         }

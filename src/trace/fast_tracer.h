@@ -6,7 +6,8 @@
 // with v, v' the octave's value and slope here. For any choice of one bound an octave, base(s) minus their sum is a
 // quadratic that under-estimates f, so its first root is a safe step. Octaves are chosen by a hinted step length, the
 // quadratic is solved, and both once more at the root. Octaves too fine for the step are not evaluated at all; where
-// the sign of f is in doubt all are, and where float cannot tell it the reference path decides in double.
+// the sign of f is in doubt more are, until it is certain whatever the rest; where float cannot tell it the reference
+// path decides in double.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -32,6 +33,10 @@ class FastTracer {
     void gradients(std::span<const glm::dvec3> x, std::span<glm::vec3> gradient, TraceCounters& counters) const {
         gradients(x, {}, gradient, counters);
     }
+
+    // Gradients of f near hits, at x: the octaves that the hits' own lack are added there.
+    void gradients(std::span<const Hit> hits, std::span<const glm::dvec3> x, std::span<const glm::dvec3> noise_shift,
+                   std::span<glm::vec3> gradient, TraceCounters& counters) const;
 
   private:
     const Field& field_;

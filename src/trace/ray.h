@@ -39,6 +39,10 @@ struct Hit {
     double s_outside = 0.0;  // f > 0 there, s - s_outside <= delta; equal to s where the ray starts inside
     std::uint32_t steps = 0;
     std::uint32_t noise_evaluations = 0;
+
+    // Of f with its first `octaves` octaves alone, at a point within delta of s.
+    glm::vec3 gradient{0.0f};
+    std::uint32_t octaves = 0;
 };
 
 struct TraceCounters {
