@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "src/render/bounding_ball.h"
+
 namespace strata::render {
 
 namespace {
@@ -13,21 +15,6 @@ constexpr double kWidest = 0.5;
 
 // Far above the rounding of what it is applied to, far below what matters.
 constexpr double kPad = 1.0 + 1e-9;
-
-double bounding_ball(const trace::Field& field) {
-    const scene::Surface& surface = field.surface();
-    switch (surface.kind) {
-        case scene::SurfaceKind::terrain:
-        case scene::SurfaceKind::hyperterrain:
-            break;
-        case scene::SurfaceKind::planet:
-            return (surface.radius + field.amplitude()) * kPad;
-        case scene::SurfaceKind::isosurface:
-            return surface.bound == scene::BoundKind::ball ? surface.bound_size.x * kPad
-                                                           : glm::length(surface.bound_size) * kPad;
-    }
-    return std::numeric_limits<double>::infinity();
-}
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include "src/render/surface_image.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -46,6 +47,8 @@ struct SurfaceImage::Chunk {
     std::vector<glm::vec3> normal;
     std::vector<Lit> lit;
     std::vector<std::size_t> shadow_owner;
+    std::vector<double> shadow_spacing;
+    SunlitCells sunlit;
 
     void clear_samples() {
         u.clear();
@@ -64,6 +67,7 @@ struct SurfaceImage::Chunk {
         if (!has_shadows) return;
         shadow_rays.reserve(count);
         shadow_owner.reserve(count);
+        shadow_spacing.reserve(count);
     }
 };
 
@@ -76,8 +80,13 @@ SurfaceImage::SurfaceImage(const scene::Scene& scene, Tracer tracer, std::uint32
       placement_(scene.surface),
       path_(scene.camera),
       camera_(path_.at(0.0), scene.film),
+      samples_a_side_(scene.sampling.estimator == scene::EstimatorKind::none ? 1 : scene.sampling.N),
       sun_direction_(glm::normalize(scene.sun.direction)) {
-    if (tracer_ == Tracer::fast && !path_.moves()) beams_.emplace(scene_, camera_, placement_, field_);
+    if (tracer_ != Tracer::fast) return;
+    if (!path_.moves()) beams_.emplace(scene_, camera_, placement_, field_);
+    if (placement_.moves() || !scene::needs_shadow_rays(scene_.sun)) return;
+    sun_beams_.emplace(field_, trace::Placement::direction_to_local(placement_.orientation(0.0), sun_direction_));
+    if (!sun_beams_->usable()) sun_beams_.reset();
 }
 
 trace::Ray SurfaceImage::camera_ray(double u, double v, double t) const {
@@ -251,17 +260,29 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
     meter.book(Phase::shading);
 }
 
+// How far apart the shadow rays of neighbouring samples are, from the area of the surface that a sample stands for.
+double SurfaceImage::shadow_spacing(const trace::Ray& ray, const Lit& lit) const {
+    constexpr double kLeastCosine = 0.05;
+    const double pixel = ray.delta_slope / scene_.sampling.tolerance * lit.distance;
+    const double to_eye = std::max(std::abs(glm::dot(lit.normal, ray.direction)), kLeastCosine);
+    const double to_sun = std::max(glm::dot(lit.normal, lit.sun), kLeastCosine);
+    return pixel * std::sqrt(to_sun / to_eye) / samples_a_side_;
+}
+
 // A point of the convex bound that faces the sun sees it.
 void SurfaceImage::shadow(Chunk& chunk, Counters& counters, trace::TraceCounters& traced) const {
     chunk.shadow_rays.clear();
     chunk.shadow_owner.clear();
+    chunk.shadow_spacing.clear();
     for (std::size_t i = 0; i < chunk.lit.size(); ++i) {
         const Lit& lit = chunk.lit[i];
         const trace::Hit& hit = chunk.surface_hits[i];
         if (glm::dot(lit.normal, lit.sun) <= 0.0 || hit.on_bound) continue;
         chunk.shadow_rays.push_back(trace::shadow_ray(chunk.rays[lit.sample], hit, lit.normal, lit.sun));
         chunk.shadow_owner.push_back(i);
+        if (sun_beams_) chunk.shadow_spacing.push_back(shadow_spacing(chunk.rays[lit.sample], lit));
     }
+    if (sun_beams_) sun_beams_->shorten(chunk.shadow_rays, chunk.shadow_spacing, chunk.sunlit, traced);
     chunk.shadow_hits.resize(chunk.shadow_rays.size());
     trace(chunk.shadow_rays, chunk.shadow_hits, traced);
     for (std::size_t i = 0; i < chunk.shadow_hits.size(); ++i) {

@@ -6,6 +6,7 @@
 
 #include "src/render/image_function.h"
 #include "src/render/screen_beams.h"
+#include "src/render/sun_beams.h"
 #include "src/scene/camera_path.h"
 #include "src/scene/scene.h"
 #include "src/trace/camera.h"
@@ -63,6 +64,7 @@ class SurfaceImage final : public ImageFunction {
     void gradients(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
                    std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient,
                    trace::TraceCounters& counters) const;
+    double shadow_spacing(const trace::Ray& ray, const Lit& lit) const;
     void shadow(Chunk& chunk, Counters& counters, trace::TraceCounters& traced) const;
     glm::vec3 shade_hit(const Lit& lit) const;
     trace::Ray camera_ray(const trace::Camera& camera, double u, double v) const;
@@ -76,6 +78,8 @@ class SurfaceImage final : public ImageFunction {
     scene::CameraPath path_;
     trace::Camera camera_;  // where it stays, if it does
     std::optional<ScreenBeams> beams_;
+    std::optional<SunBeams> sun_beams_;
+    int samples_a_side_;
     glm::dvec3 sun_direction_;  // in the world, of unit length
 };
 
