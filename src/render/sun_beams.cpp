@@ -16,7 +16,7 @@ constexpr int kCodeBits = 2 * kLevelBits * (kLevels - 1);
 constexpr double kPad = 1.0 + 1e-9;  // far above the rounding of the positions' parts
 
 // The finest cells hold about this many rays. Speed only.
-constexpr double kRaysALeaf = 6.0;
+constexpr double kRaysALeaf = 40.0;
 
 // The sun must stand at least this high (sine) over a height field's plane.
 constexpr double kLeastRise = 1e-3;

@@ -18,7 +18,7 @@ namespace strata::render {
 namespace {
 
 // Rays traced at once: enough to keep packets full, few enough for their data to stay in the second-level cache.
-constexpr std::size_t kChunk = 1024;
+constexpr std::size_t kChunk = 4096;
 
 }  // namespace
 
