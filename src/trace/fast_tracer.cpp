@@ -19,6 +19,10 @@ constexpr float kCellsAhead = 0.3f;
 // Exchange finished lanes once this fraction of the packet is idle. Speed only.
 constexpr std::size_t kIdleFraction = 4;
 
+// Oversteps, in safe steps: what each success adds, the most, and where to begin anew after a failure; none shorter
+// than some tolerances. Speed only.
+constexpr float kRelaxGain = 0.2f, kMostRelax = 0.9f, kRelaxAfterFailure = 0.0f, kLeastOverstep = 2.0f;
+
 // |f| below this many error bounds is settled in double.
 constexpr float kDoubtful = 4.0f;
 
@@ -120,6 +124,11 @@ HWY_INLINE void settle_doubt(const Field& field, const TracePlan& plan, Packet& 
     at.error = hn::Load(d, error);
 }
 
+HWY_INLINE hn::Mask<FloatTag> uses_octave(const Evaluation& at, std::size_t k) {
+    const hn::RebindToSigned<FloatTag> d;
+    return hn::RebindMask(FloatTag(), hn::Gt(hn::BitCast(d, at.octaves), hn::Set(d, static_cast<int>(k))));
+}
+
 // The longest step that is certified to stay outside the surface.
 HWY_INLINE FloatVec safe_step(const TracePlan& plan, const Packet& packet, const Evaluation& at, FloatVec delta,
                               const OctaveCache& cache) {
@@ -140,14 +149,37 @@ HWY_INLINE FloatVec safe_step(const TracePlan& plan, const Packet& packet, const
     OctaveBounds bounds = no_bounds();
     for (std::size_t k = 0; k < cache.count; ++k) {
         const TraceOctave& octave = plan.octaves[k];
-        const auto use = hn::RebindMask(d, hn::Gt(hn::BitCast(hn::RebindToSigned<FloatTag>(), at.octaves),
-                                                  hn::Set(hn::RebindToSigned<FloatTag>(), static_cast<int>(k))));
         // The span first: a vertical ray's speed of 0 must not meet an infinite product.
         const FloatVec wave = hn::Set(d, octave.wave);
         bounds = add_octave(bounds, plan, octave, cache.value[k], cache.slope[k], hn::Mul(wave, again),
-                            hn::Mul(wave, span), use);
+                            hn::Mul(wave, span), uses_octave(at, k));
     }
     return hn::Max(first, solve(bounds, again));
+}
+
+// Lanes whose stretch of length packet.over behind them is free, by bounds taken backwards. f is at least a concave
+// parabola there, so it is positive in between where it is at both ends.
+HWY_INLINE hn::Mask<FloatTag> covers_overstep(const TracePlan& plan, const Packet& packet, const Evaluation& at,
+                                              const OctaveCache& cache) {
+    const FloatTag d;
+    const FloatVec over = hn::Load(d, packet.over), span = hn::Mul(over, hn::Load(d, packet.speed));
+    const auto lands = hn::Le(over, hn::Zero(d));
+    if (HWY_LIKELY(hn::AllTrue(d, lands))) return lands;
+    OctaveBounds bounds = no_bounds();
+    for (std::size_t k = 0; k < cache.count; ++k) {
+        const FloatVec wave = hn::Set(d, plan.octaves[k].wave);
+        bounds = add_octave(bounds, plan, plan.octaves[k], cache.value[k], hn::Neg(cache.slope[k]), hn::Mul(wave, over),
+                            hn::Mul(wave, span), uses_octave(at, k));
+    }
+    const FloatVec here = hn::Sub(hn::Sub(at.f, hn::Add(at.rest, at.error)), bounds.drop);
+    const FloatVec base_slope = hn::Add(at.base_slope, hn::Set(d, plan.slope_error));
+    const FloatVec climb = hn::NegMulAdd(base_slope, over, bounds.slope);
+    // What is added up here has been rounded a few times.
+    const FloatVec size = hn::Add(here, hn::Add(hn::Abs(climb), bounds.bend));
+    const FloatVec there = hn::Sub(hn::Add(here, climb), bounds.bend);
+    const auto is_free = hn::And(hn::Gt(here, hn::Zero(d)),
+                                 hn::Gt(there, hn::Mul(size, hn::Set(d, static_cast<float>(kRoundUp - 1.0)))));
+    return hn::Or(lands, is_free);
 }
 
 // The root within the last step, by its slope: f <= 0 here, f > 0 at s_outside.
@@ -164,6 +196,16 @@ HWY_INLINE void report(const Packet& packet, std::size_t lane, HitState state, f
     hit.on_bound = state == HitState::hit && packet.enters_bound[lane] && packet.steps[lane] == 1;
     hit.s_outside = packet.s_outside[lane];
     hit.s = state == HitState::hit ? refine(packet.s[lane], hit.s_outside, f, slope) : packet.s[lane];
+}
+
+// To where the ray may land, from an overstep that was not covered.
+HWY_INLINE void go_back(Packet& packet, std::size_t lane) {
+    const double clear = packet.s_outside[lane];
+    packet.hint[lane] = packet.over[lane];
+    packet.s[lane] -= static_cast<double>(packet.over[lane]);
+    packet.s[lane] = std::max(packet.s[lane], clear);
+    packet.over[lane] = 0.0f;
+    packet.relax[lane] = kRelaxAfterFailure;
 }
 
 // One step of every active lane; lanes that finish report and become idle.
@@ -183,9 +225,11 @@ HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, 
     const Wide delta = mul_add(load_wide(packet.delta_slope), s, load_wide(packet.delta0));
     const FloatVec delta_float = to_float(delta);
     const FloatVec safe = safe_step(plan, packet, at, delta_float, cache);
+    const auto covered = covers_overstep(plan, packet, at, cache);
     const auto inside = hn::Or(at.inside, hn::And(at.complete, hn::Le(at.f, hn::Zero(d))));
 
-    alignas(HWY_MAX_BYTES) float f[kMaxLanes], slope[kMaxLanes], hit[kMaxLanes], gradient[3][kMaxLanes];
+    alignas(HWY_MAX_BYTES) float f[kMaxLanes], slope[kMaxLanes], hit[kMaxLanes], gradient[3][kMaxLanes],
+        is_covered[kMaxLanes], over[kMaxLanes];
     alignas(HWY_MAX_BYTES) std::uint32_t octaves[kMaxLanes];
     alignas(HWY_MAX_BYTES) double outside[kMaxLanes], landing[kMaxLanes];
     hn::Store(at.f, d, f);
@@ -196,6 +240,10 @@ HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, 
     hn::Store(at.octaves, dw, octaves);
     hn::Store(hn::IfThenElseZero(inside, hn::Set(d, 1.0f)), d, hit);
     hn::Store(hn::Min(hn::Max(hn::Max(safe, delta_float), hn::Set(d, 1e-30f)), hn::Set(d, 1e15f)), d, packet.hint);
+    hn::Store(hn::IfThenElseZero(covered, hn::Set(d, 1.0f)), d, is_covered);
+    // Near the surface there is nothing to be gained.
+    const FloatVec further = hn::Mul(hn::Min(safe, hn::Set(d, 1e15f)), hn::Load(d, packet.relax));
+    hn::Store(hn::IfThenElseZero(hn::Gt(further, hn::Mul(delta_float, hn::Set(d, kLeastOverstep))), further), d, over);
     const Wide clear = add(s, to_wide(safe));
     store_wide(clear, outside);
     store_wide(add(clear, delta), landing);
@@ -203,6 +251,10 @@ HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, 
         if (packet.ray[lane] == kNoRay) continue;
         ++packet.steps[lane];
         ++counters.steps;
+        if (is_covered[lane] == 0.0f && packet.steps[lane] < packet.step_limit[lane]) {
+            go_back(packet, lane);
+            continue;
+        }
         const bool is_hit = hit[lane] != 0.0f;
         const bool is_miss = !is_hit && landing[lane] >= packet.end[lane];
         if (is_hit || is_miss || packet.steps[lane] >= packet.step_limit[lane]) {
@@ -216,7 +268,10 @@ HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, 
             continue;
         }
         packet.s_outside[lane] = outside[lane];
-        packet.s[lane] = landing[lane];
+        packet.relax[lane] = std::min(packet.relax[lane] + kRelaxGain, kMostRelax);
+        const double room = packet.end[lane] - landing[lane];
+        packet.over[lane] = room > over[lane] ? over[lane] : 0.0f;
+        packet.s[lane] = landing[lane] + static_cast<double>(packet.over[lane]);
     }
 }
 

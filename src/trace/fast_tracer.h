@@ -8,6 +8,9 @@
 // quadratic is solved, and both once more at the root. Octaves too fine for the step are not evaluated at all; where
 // the sign of f is in doubt more are, until it is certain whatever the rest; where float cannot tell it the reference
 // path decides in double.
+//
+// A ray may land further than its safe step (over-relaxation: B. Keinert et al., "Enhanced Sphere Tracing", 2014): the
+// same bounds, taken backwards from there, then have to cover the stretch in between, else the ray goes back.
 #pragma once
 
 #include <glm/glm.hpp>

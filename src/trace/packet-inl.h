@@ -21,6 +21,9 @@ namespace strata::trace::HWY_NAMESPACE {
 inline constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
 inline constexpr std::size_t kNoRay = std::numeric_limits<std::size_t>::max();
 
+// How far a ray's first safe step is overstepped, as a fraction of it. Speed only.
+inline constexpr float kFirstRelax = 0.5f;
+
 struct Packet {
     alignas(HWY_MAX_BYTES) double origin[3][kMaxLanes] = {};
     alignas(HWY_MAX_BYTES) double direction[3][kMaxLanes] = {};
@@ -32,6 +35,8 @@ struct Packet {
     alignas(HWY_MAX_BYTES) double delta_slope[kMaxLanes] = {};
     alignas(HWY_MAX_BYTES) float speed[kMaxLanes] = {};
     alignas(HWY_MAX_BYTES) float hint[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) float over[kMaxLanes] = {};    // s lies so much further than a landing may
+    alignas(HWY_MAX_BYTES) float relax[kMaxLanes] = {};   // how far to overstep next, in safe steps
     alignas(HWY_MAX_BYTES) float active[kMaxLanes] = {};  // 1 or 0
     alignas(HWY_MAX_BYTES) std::uint32_t evaluations[kMaxLanes] = {};
     std::uint32_t steps[kMaxLanes] = {};
@@ -62,6 +67,8 @@ HWY_INLINE void take_ray(Packet& packet, std::size_t lane, const Ray& ray, std::
     packet.delta_slope[lane] = ray.delta_slope;
     packet.speed[lane] = domain_speed(is_planar, ray.direction);
     packet.hint[lane] = ray.hint > 0.0f ? ray.hint : plan.first_hint;
+    packet.over[lane] = 0.0f;
+    packet.relax[lane] = kFirstRelax;
     packet.active[lane] = 1.0f;
     packet.evaluations[lane] = 0;
     packet.steps[lane] = 0;
