@@ -104,7 +104,7 @@ ReferenceName name_reference(const SweepJob& job, const SweepCell& cell) {
     const auto add = [&](const std::optional<SweepAxis>& axis, std::size_t value) {
         if (!axis || !changes_target(*axis)) return;
         if (axis->key == "sampling.m" && !name.label.empty()) return;
-        name.file += "_" + file_part(*axis, value);
+        name.file += fmt::format("_{}", file_part(*axis, value));
         name.label += fmt::format("{}{}", name.label.empty() ? "" : ", ", value_label(*axis, value));
     };
     add(job.axes.columns, cell.column);
