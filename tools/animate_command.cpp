@@ -188,7 +188,7 @@ int animate_command(const AnimateRequest& request) {
     return 0;
 }
 
-void add_column_options(CLI::App& command, AnimateRequest& request) {
+void add_column_options(Command& command, AnimateRequest& request) {
     command
         .add_option("--columns", request.columns,
                     "Pictures side by side, their settings between ';', as \"none; N=4 m=4; shutter.open_s=0.02 l=4 "
@@ -201,8 +201,8 @@ void add_column_options(CLI::App& command, AnimateRequest& request) {
 
 }  // namespace
 
-void add_animate_command(CLI::App& program, int& exit_code) {
-    CLI::App* command = program.add_subcommand("animate", "Render numbered frames and films");
+void add_animate_command(Command& program, int& exit_code) {
+    Command* command = program.add_subcommand("animate", "Render numbered frames and films");
     auto request = std::make_shared<AnimateRequest>();
     request->scene.add_to(*command);
     command
@@ -214,8 +214,7 @@ void add_animate_command(CLI::App& program, int& exit_code) {
                      "NAME.png, .exr, .tif or .jpg: frames NAME.0001.png ... ('#'s choose where the number goes); "
                      "NAME.mp4, .webm or .gif: a film by ffmpeg (may be repeated); default SCENE.mp4")
         ->type_name("FILE")
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        ->repeated();
     add_column_options(*command, *request);
     command->add_flag("--overwrite", request->overwrite, "Render and replace frames that are there");
     command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")

@@ -156,8 +156,8 @@ int converge_command(const ConvergeRequest& request) {
 
 }  // namespace
 
-void add_converge_command(CLI::App& program, int& exit_code) {
-    CLI::App* command = program.add_subcommand("converge", "Measure error against time of estimators, and report it");
+void add_converge_command(Command& program, int& exit_code) {
+    Command* command = program.add_subcommand("converge", "Measure error against time of estimators, and report it");
     auto request = std::make_shared<ConvergeRequest>();
     request->scene.add_scene_to(*command,
                                 "What to picture: edge, zoneplate, checker, constant or ramp (compared with the exact "

@@ -88,8 +88,8 @@ int explain_command(const ExplainRequest& request) {
 
 }  // namespace
 
-void add_explain_command(CLI::App& program, int& exit_code) {
-    CLI::App* command =
+void add_explain_command(Command& program, int& exit_code) {
+    Command* command =
         program.add_subcommand("explain", "Tell what a render does, what it leaves out, and what it will cost");
     auto request = std::make_shared<ExplainRequest>();
     request->scene.add_to(*command);

@@ -123,8 +123,8 @@ int figures_command(const FiguresRequest& request) {
 
 }  // namespace
 
-void add_figures_command(CLI::App& program, int& exit_code) {
-    CLI::App* command = program.add_subcommand("figures", "Make the figures of Gamito & Maddock 2006 anew");
+void add_figures_command(Command& program, int& exit_code) {
+    Command* command = program.add_subcommand("figures", "Make the figures of Gamito & Maddock 2006 anew");
     auto request = std::make_shared<FiguresRequest>();
     command->add_option("--only", request->only, "Figures to make, 1 to 8, separated by commas; default all")
         ->type_name("K,K...");

@@ -228,12 +228,11 @@ void probe_samples(const SceneArgument& argument, const std::string& pixel_text)
 
 }  // namespace
 
-void add_probe_command(CLI::App& program, int&) {
-    CLI::App* probe =
-        program.add_subcommand("probe", "Numbers as JSON lines: the field, rays, the filter, the samples");
-    probe->require_subcommand(1);
+void add_probe_command(Command& program, int&) {
+    Command* probe = program.add_subcommand("probe", "Numbers as JSON lines: the field, rays, the filter, the samples");
+    probe->require_subcommand();
 
-    CLI::App* field = probe->add_subcommand(
+    Command* field = probe->add_subcommand(
         "field",
         "Reads `x y z [t]` lines; prints f, its gradient and each octave's contribution: f = base - sum of octaves");
     auto field_scene = std::make_shared<SceneArgument>();
@@ -244,8 +243,7 @@ void add_probe_command(CLI::App& program, int&) {
         "ball or box. The gradient is that of f by world position. Without t: the middle of the frame's shutter.");
     field->callback([field_scene] { probe_field(*field_scene); });
 
-    CLI::App* ray =
-        probe->add_subcommand("ray", "Traces rays of the camera, or `ox oy oz dx dy dz [t]` lines of stdin");
+    Command* ray = probe->add_subcommand("ray", "Traces rays of the camera, or `ox oy oz dx dy dz [t]` lines of stdin");
     auto ray_request = std::make_shared<RayRequest>();
     ray_request->scene.add_to(*ray);
     ray->add_option("--pixel", ray_request->pixel, "The ray through a pixel's centre at mid-shutter")->type_name("x,y");
@@ -260,7 +258,7 @@ void add_probe_command(CLI::App& program, int&) {
         "not settled within the step limit. noise_evaluations are those of the ray, without the normal's.");
     ray->callback([ray_request] { probe_ray(*ray_request); });
 
-    CLI::App* bspline =
+    Command* bspline =
         probe->add_subcommand("bspline", "Reads a y in [0,1] a line; inverts the B-spline's distribution");
     auto order = std::make_shared<std::string>("4");
     bspline->add_option("-m,--order", *order, "Order of the B-spline, 1 to 100")->capture_default_str()->type_name("M");
@@ -270,7 +268,7 @@ void add_probe_command(CLI::App& program, int&) {
         "for m > 20 and where it does not converge within 1000 iterations.");
     bspline->callback([order] { probe_bspline(parse_integer("-m", *order, filter::kMinOrder, filter::kMaxOrder)); });
 
-    CLI::App* samples = probe->add_subcommand("samples", "Prints every sample with a weight in a pixel");
+    Command* samples = probe->add_subcommand("samples", "Prints every sample with a weight in a pixel");
     auto samples_scene = std::make_shared<SceneArgument>();
     auto pixel = std::make_shared<std::string>();
     samples_scene->add_to(*samples);

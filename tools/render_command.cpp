@@ -93,8 +93,8 @@ int render_command(const RenderRequest& request) {
 
 }  // namespace
 
-void add_render_command(CLI::App& program, int& exit_code) {
-    CLI::App* command = program.add_subcommand("render", "Render a scene to pictures");
+void add_render_command(Command& program, int& exit_code) {
+    Command* command = program.add_subcommand("render", "Render a scene to pictures");
     auto request = std::make_shared<RenderRequest>();
     request->scene.add_to(*command);
     command
@@ -102,8 +102,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
                      "A picture to write, by extension .exr, .png, .tif or .jpg (may be repeated); default SCENE.exr "
                      "and SCENE.png in the current folder")
         ->type_name("FILE")
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        ->repeated();
     command
         ->add_option("--crop", request->crop,
                      "Render pixels [x0,x1) x [y0,y1) of the frame alone, y down; default the whole frame")

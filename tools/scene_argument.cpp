@@ -98,14 +98,13 @@ std::string shown_name(const KeyOption& option) {
 
 }  // namespace
 
-void SceneArgument::add_changes(CLI::App& command) {
+void SceneArgument::add_changes(Command& command) {
     command
         .add_option("--set", sets_,
                     "Replace any scene key: --set camera.fov_deg=35 (a TOML value, words without quotes; may be "
                     "repeated; `strata scenes NAME` explains the keys)")
         ->type_name("KEY=VALUE")
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        ->repeated();
     command
         .add_option("--size", size_, "Frame in pixels, 1 to 65536 a side; default the scene's film.width, film.height")
         ->type_name("WxH");
@@ -118,12 +117,12 @@ bool SceneArgument::size_given() const {
            });
 }
 
-void SceneArgument::add_scene_to(CLI::App& command, const std::string& description) {
+void SceneArgument::add_scene_to(Command& command, const std::string& description) {
     command.add_option("SCENE", scene_, description)->required();
     add_changes(command);
 }
 
-void SceneArgument::add_to(CLI::App& command, const char* name, std::span<const std::string_view> own) {
+void SceneArgument::add_to(Command& command, const char* name, std::span<const std::string_view> own) {
     command
         .add_option(name, scene_, "A scene file, a built-in scene (`strata scenes`), or a picture that strata wrote")
         ->capture_default_str();

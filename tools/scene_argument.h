@@ -1,7 +1,6 @@
 // The SCENE argument and the options that change a scene, as every subcommand takes them.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
@@ -12,6 +11,7 @@
 #include "src/render/film.h"
 #include "src/render/surface_image.h"
 #include "src/scene/scene.h"
+#include "tools/command_line.h"
 
 namespace strata::tools {
 
@@ -27,10 +27,10 @@ class SceneArgument {
   public:
     // Adds SCENE, --set and the options that stand for scene keys. A name such as "--scene" makes SCENE an option.
     // Keys in `own` get no option: the command has its own for them.
-    void add_to(CLI::App& command, const char* name = "SCENE", std::span<const std::string_view> own = {});
+    void add_to(Command& command, const char* name = "SCENE", std::span<const std::string_view> own = {});
 
     // Adds SCENE, which must be given, --set and --size alone: for commands that choose N, m, estimator and seeds.
-    void add_scene_to(CLI::App& command, const std::string& description);
+    void add_scene_to(Command& command, const std::string& description);
 
     // Whether --size or --set says how large the frame is.
     bool size_given() const;
@@ -41,7 +41,7 @@ class SceneArgument {
 
   private:
     LoadedScene find() const;
-    void add_changes(CLI::App& command);
+    void add_changes(Command& command);
 
     std::string scene_ = "terrain";
     std::optional<std::string> size_;

@@ -33,8 +33,8 @@ void print_builtin(const std::string& name) {
 
 }  // namespace
 
-void add_scenes_command(CLI::App& program, int&) {
-    CLI::App* command =
+void add_scenes_command(Command& program, int&) {
+    Command* command =
         program.add_subcommand("scenes", "List the built-in scenes, or print one with every key explained");
     auto name = std::make_shared<std::string>();
     command->add_option("NAME", *name, "The scene to print as TOML: every key, its default, unit and range");

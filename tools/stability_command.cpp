@@ -129,8 +129,8 @@ int stability_command(const StabilityRequest& request) {
 
 }  // namespace
 
-void add_stability_command(CLI::App& program, int& exit_code) {
-    CLI::App* command =
+void add_stability_command(Command& program, int& exit_code) {
+    Command* command =
         program.add_subcommand("stability", "Check the arithmetic on stiff and extreme cases against derived bounds");
     auto request = std::make_shared<StabilityRequest>();
     command->add_option("-o,--output", request->folder, "Folder to write stability.md and stability.json to")

@@ -98,21 +98,22 @@ int answer(const CLI::App& program, const CLI::Success& request) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App program("Procedural implicit surfaces, ray cast and antialiased with stratified B-spline samples.",
-                     "strata");
+    strata::tools::Command commands(
+        "Procedural implicit surfaces, ray cast and antialiased with stratified B-spline samples.", "strata");
+    CLI::App& program = commands.app();
     program.set_version_flag("--version", "strata " STRATA_VERSION, "Print the program's version");
-    program.require_subcommand(1);
+    commands.require_subcommand();
     int exit_code = 0;
-    strata::tools::add_render_command(program, exit_code);
-    strata::tools::add_scenes_command(program, exit_code);
-    strata::tools::add_probe_command(program, exit_code);
-    strata::tools::add_strip_command(program, exit_code);
-    strata::tools::add_sweep_command(program, exit_code);
-    strata::tools::add_animate_command(program, exit_code);
-    strata::tools::add_figures_command(program, exit_code);
-    strata::tools::add_converge_command(program, exit_code);
-    strata::tools::add_stability_command(program, exit_code);
-    strata::tools::add_explain_command(program, exit_code);
+    strata::tools::add_render_command(commands, exit_code);
+    strata::tools::add_scenes_command(commands, exit_code);
+    strata::tools::add_probe_command(commands, exit_code);
+    strata::tools::add_strip_command(commands, exit_code);
+    strata::tools::add_sweep_command(commands, exit_code);
+    strata::tools::add_animate_command(commands, exit_code);
+    strata::tools::add_figures_command(commands, exit_code);
+    strata::tools::add_converge_command(commands, exit_code);
+    strata::tools::add_stability_command(commands, exit_code);
+    strata::tools::add_explain_command(commands, exit_code);
     // Commands added later would inherit it.
     program.footer("'strata COMMAND --help' explains each. `strata render` without more renders the scene terrain.");
     try {

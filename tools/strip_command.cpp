@@ -86,7 +86,7 @@ int strip_command(const StripRequest& request) {
     return render::cancelling_signal() != 0 ? kExitSignal + render::cancelling_signal() : 0;
 }
 
-void add_look_options(CLI::App& command, StripRequest& request) {
+void add_look_options(Command& command, StripRequest& request) {
     command.add_option("--crop", request.crop, "Show pixels [x0,x1) x [y0,y1) of the frame alone, y down")
         ->type_name("x0,y0,x1,y1");
     command.add_option("--zoom", request.zoom, "Show each pixel as n x n, 1 to 64; default: panels near 256 px wide")
@@ -100,8 +100,8 @@ void add_look_options(CLI::App& command, StripRequest& request) {
 
 }  // namespace
 
-void add_strip_command(CLI::App& program, int& exit_code) {
-    CLI::App* command = program.add_subcommand("strip", "Show pictures side by side, magnified and compared");
+void add_strip_command(Command& program, int& exit_code) {
+    Command* command = program.add_subcommand("strip", "Show pictures side by side, magnified and compared");
     auto request = std::make_shared<StripRequest>();
     command->add_option("PICTURE", request->pictures, "Pictures to show: EXR, PNG, TIFF or JPEG");
     request->scene.add_to(*command, "--scene");

@@ -78,15 +78,12 @@ int sweep_command(const SweepRequest& request) {
     return render::cancelling_signal() != 0 ? kExitSignal + render::cancelling_signal() : 0;
 }
 
-void add_axis_option(CLI::App& command, const char* names, std::vector<std::string>& texts, const char* type,
+void add_axis_option(Command& command, const char* names, std::vector<std::string>& texts, const char* type,
                      const char* meaning) {
-    command.add_option(names, texts, meaning)
-        ->type_name(type)
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_option(names, texts, meaning)->type_name(type)->repeated();
 }
 
-void add_axis_options(CLI::App& command, AxisTexts& texts) {
+void add_axis_options(Command& command, AxisTexts& texts) {
     add_axis_option(command, "-N,--N", texts.N, "N,...", "Samples a side, as 1,2,3,10: the columns");
     add_axis_option(command, "-m,--m", texts.m, "M,...", "Orders of the B-spline filter, as 1,4,15: the rows");
     add_axis_option(command, "--estimator", texts.estimator, "NAME,...", "Estimators, as none,stratified,sobol");
@@ -99,9 +96,8 @@ void add_axis_options(CLI::App& command, AxisTexts& texts) {
 
 }  // namespace
 
-void add_sweep_command(CLI::App& program, int& exit_code) {
-    CLI::App* command =
-        program.add_subcommand("sweep", "Render a scene over a grid of settings and measure the errors");
+void add_sweep_command(Command& program, int& exit_code) {
+    Command* command = program.add_subcommand("sweep", "Render a scene over a grid of settings and measure the errors");
     auto request = std::make_shared<SweepRequest>();
     auto texts = std::make_shared<AxisTexts>();
     static constexpr std::array<std::string_view, 5> kOwn{"sampling.N", "sampling.m", "sampling.estimator",

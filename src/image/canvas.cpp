@@ -1,6 +1,5 @@
 #include "src/image/canvas.h"
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
 
 #include <algorithm>

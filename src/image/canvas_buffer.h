@@ -1,9 +1,8 @@
 // A canvas as OpenImageIO sees it, for the files that draw with ImageBufAlgo.
 #pragma once
 
-#include <OpenImageIO/imagebuf.h>
-
 #include "src/image/canvas.h"
+#include "src/image/openimageio.h"
 
 namespace strata::image {
 

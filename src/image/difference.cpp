@@ -1,6 +1,5 @@
 #include "src/image/difference.h"
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
 
 #include <algorithm>

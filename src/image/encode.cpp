@@ -1,7 +1,5 @@
 #include "src/image/encode.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 
 #include "src/image/image_error.h"
 #include "src/image/library.h"
+#include "src/image/openimageio.h"
 #include "src/image/srgb.h"
 
 namespace strata::image {

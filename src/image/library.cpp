@@ -1,6 +1,6 @@
 #include "src/image/library.h"
 
-#include <OpenImageIO/imageio.h>
+#include "src/image/openimageio.h"
 
 namespace strata::image {
 

@@ -1,6 +1,5 @@
 #include "src/image/read.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <array>
@@ -12,6 +11,7 @@
 #include "src/image/image_error.h"
 #include "src/image/library.h"
 #include "src/image/metadata.h"
+#include "src/image/openimageio.h"
 #include "src/image/srgb.h"
 
 namespace strata::image {

@@ -37,6 +37,15 @@ refuses() { # sentence status pattern arguments...
     expect_match "$sentence" "$status: $output" "$expected: $pattern"
 }
 
+# Until the program catches SIGINT: what a script starts in the background ignores it before, for good.
+await_handler() { # pid
+    local i
+    for ((i = 0; i < 3000; ++i)); do
+        [[ $(sed -n 's/^SigCgt:.*\(.\)$/\1/p' "/proc/$1/status" 2>/dev/null) == [2367abefABEF] ]] && return
+        sleep 0.01
+    done
+}
+
 # Runs each group, a function, in a folder named like it, and sums up: the script's last command.
 run_groups() { # function...
     local group passed failed

@@ -94,6 +94,7 @@ check_budget_and_signals() {
     expect_match 'it says what it left out' "$(cat budget/summary.md)" '*did not suffice for N =*'
     "$strata" converge edge --seeds 1000 --N 1,2 --m 4 --quiet -o stopped &
     local pid=$!
+    await_handler "$pid"
     sleep 3
     kill -INT "$pid"
     wait "$pid"

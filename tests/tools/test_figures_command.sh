@@ -62,11 +62,8 @@ $(cd f && echo *.json)" '7 6 figure-4.json'
 
 check_signals() {
     "$strata" figures --only 5 --size large -o f --quiet &
-    local pid=$! i
-    for ((i = 0; i < 1000; ++i)); do
-        [[ $(sed -n 's/^SigCgt:.*\(.\)$/\1/p' "/proc/$pid/status" 2>/dev/null) == [2367abefABEF] ]] && break
-        sleep 0.01
-    done
+    local pid=$!
+    await_handler "$pid"
     kill -INT "$pid"
     wait "$pid"
     expect 'SIGINT ends with 130' "$?" 130

@@ -52,6 +52,7 @@ check_interruption() {
     echo earlier >a.exr
     "$strata" render edge --size 64x36 -N 8 --passes 1000000 --quiet -o a.exr --stats a.json &
     local pid=$!
+    await_handler "$pid"
     sleep 1.5
     kill -INT "$pid"
     wait "$pid"

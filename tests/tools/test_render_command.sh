@@ -188,15 +188,11 @@ check_samples() {
 }
 
 start_render() { # output arguments...: sets pid once the program listens to signals
-    local name=$1 i caught
+    local name=$1
     shift
     "$strata" render hyperterrain --size 320x180 -N 64 --quiet -o "$name" "$@" &
     pid=$!
-    for ((i = 0; i < 1000; ++i)); do
-        caught=$(sed -n 's/^SigCgt:.*\(.\)$/\1/p' "/proc/$pid/status" 2>/dev/null)
-        [[ $caught == [2367abefABEF] ]] && return
-        sleep 0.01
-    done
+    await_handler "$pid"
 }
 
 check_signals() {

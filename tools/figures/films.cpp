@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -70,11 +69,10 @@ bool make_film(const Film& film, const FilmOptions& options) {
     if (options.overwrite) words.emplace_back("--overwrite");
     if (options.quiet) words.emplace_back("--quiet");
 
-    CLI::App program;
+    Command program;
     int exit_code = 0;
     add_animate_command(program, exit_code);
-    std::ranges::reverse(words);  // CLI11 takes them from the end
-    program.parse(words);
+    program.parse(std::move(words));
     if (exit_code != 0) return false;
     const std::string record = film_record(film).dump() + "\n";
     image::replace_file(record_path(film, options.folder),

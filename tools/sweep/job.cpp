@@ -56,7 +56,7 @@ SweepCell make_cell(const SweepRequest& request, const SweepJob& job, const scen
         if (!axis) return;
         apply(scene, *axis, value);
         cell.settings.emplace_back(axis->key, axis->values[value]);
-        file += (file.empty() ? "" : "_") + file_part(*axis, value);
+        file += fmt::format("{}{}", file.empty() ? "" : "_", file_part(*axis, value));
         origin += fmt::format("{}{} {}", origin.empty() ? "" : ", ", axis->origin, axis->values[value]);
     };
     set(job.axes.columns, column);
@@ -104,8 +104,8 @@ ReferenceName name_reference(const SweepJob& job, const SweepCell& cell) {
     const auto add = [&](const std::optional<SweepAxis>& axis, std::size_t value) {
         if (!axis || !changes_target(*axis)) return;
         if (axis->key == "sampling.m" && !name.label.empty()) return;
-        name.file += "_" + file_part(*axis, value);
-        name.label += (name.label.empty() ? "" : ", ") + value_label(*axis, value);
+        name.file += fmt::format("_{}", file_part(*axis, value));
+        name.label += fmt::format("{}{}", name.label.empty() ? "" : ", ", value_label(*axis, value));
     };
     add(job.axes.columns, cell.column);
     add(job.axes.rows, cell.row);
