@@ -12,12 +12,21 @@ namespace strata::image {
 
 enum class ExrFormat { half, floating };
 
+// automatic: tiles where the crop has kTiledFrom pixels or more on either side.
+enum class ExrLayout { automatic, scanlines, tiles };
+inline constexpr int kTiledFrom = 4096;
+
 struct WriteOptions {
     double exposure = 0.0;  // stops, finite; EXR ignores it and stays linear
     ExrFormat exr_format = ExrFormat::half;
+    ExrLayout exr_layout = ExrLayout::automatic;
 };
 
-// EXR: linear, zip; TIFF: 16 bits, zip; PNG: 8 bits; JPEG: 8 bits, quality 95, no chroma subsampling. The last three
+// Rows encoded at once: a multiple of the 16 that EXR's zip packs together and of the 64 of its tiles, and little
+// memory beside a whole picture.
+inline constexpr int kStripRows = 64;
+
+// EXR: linear, zip, in scanlines or tiles of 64x64; TIFF: 16 bits, zip; PNG: 8 bits; JPEG: 8 bits, quality 95, no chroma subsampling. The last three
 // are multiplied by 2^exposure, clamped, passed through sRGB's transfer function and rounded to the nearest code. EXR
 // and TIFF keep the crop as data window and the frame as display window; PNG and JPEG hold the crop alone. Finite
 // radiance beyond the largest half (65504) becomes that. EXR and PNG carry each metadata entry under its name, TIFF and

@@ -13,4 +13,13 @@ std::size_t Film::finished_count() const {
     return static_cast<std::size_t>(std::count(finished_.begin(), finished_.end(), std::uint8_t{1}));
 }
 
+void Film::paste(const Film& part) {
+    const Window& w = part.window();
+    for (int y = w.y0; y < w.y1; ++y) {
+        for (int x = w.x0; x < w.x1; ++x) {
+            if (part.finished(x, y)) finish(x, y, part.at(x, y));
+        }
+    }
+}
+
 }  // namespace strata::render

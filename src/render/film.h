@@ -38,6 +38,11 @@ class Film {
         finished_[index(x, y)] = 1;
     }
 
+    // Takes over what is finished of a part, whose window lies inside this film's.
+    void paste(const Film& part);
+
+    std::size_t bytes() const { return pixels_.size() * (sizeof(glm::vec3) + sizeof(std::uint8_t)); }
+
   private:
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width()) +

@@ -1,20 +1,10 @@
 #include "src/render/render_context.h"
 
-#include <ctime>
-
 #include <algorithm>
 
+#include "src/render/cpu_clock.h"
+
 namespace strata::render {
-
-namespace {
-
-double thread_cpu_seconds() {
-    timespec time = {};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-}  // namespace
 
 RenderContext::RenderContext(const ImageFunction& image_function, const Estimator& pixel_estimator,
                              const RenderOptions& render_options, std::int64_t total_work)
@@ -56,7 +46,6 @@ void RenderContext::finish(RenderResult& result) const {
     }
     result.threads = seam_.threads();
     result.seconds = progress.seconds();
-    result.cancelled = !result.film.complete();
 }
 
 }  // namespace strata::render

@@ -39,6 +39,8 @@ class RenderContext {
     // As many owners as fill a batch, at least one.
     std::size_t owners_a_batch() const;
 
+    int threads() const { return seam_.threads(); }
+
     // Sums up what the workers did.
     void finish(RenderResult& result) const;
 
@@ -52,11 +54,11 @@ class RenderContext {
     std::vector<Worker> workers_;
 };
 
-// Estimators whose samples belong to a pixel: tiles, in any order.
-void render_tiles(RenderContext& context, int side, Film& film);
+// Estimators whose samples belong to a pixel: tiles, cut where strips are. Sets what `result` has of pixels.
+void render_tiles(RenderContext& context, const StripLayout& layout, StripSink sink, RenderResult& result);
 
 // Estimators whose samples belong to a screen cell and count in many pixels.
-void render_shared(RenderContext& context, Film& film);
+void render_shared(RenderContext& context, const StripLayout& layout, StripSink sink, RenderResult& result);
 
 // Cells whose samples can reach the window's pixels.
 Window cells_of(const Window& window, const Estimator& estimator);
