@@ -57,20 +57,19 @@ void choose_simd_target(const RenderRequest& request, const LoadedScene& loaded)
                     loaded.source, *loaded.simd_target, noise::simd_target()));
 }
 
-// At the most demanding moment, of writing: picture, a copy of it for the encoder, its codes, the encoded file.
-constexpr double kBytesAPixel = 12 + 12 + 12 + 12;
-// Of several passes, while they are rendered: the sum, the pass in work and the one before it.
+// Of several passes, while they are rendered: the sum, the pass in work and the one before it. One pass is not held
+// whole.
 constexpr double kBytesAPixelOfPasses = 24 + 13 + 13;
 
 void check_memory(const render::Window& window, const render::PassGoal& goal) {
-    const double bytes = goal.passes > 1 ? std::max(kBytesAPixel, kBytesAPixelOfPasses) : kBytesAPixel;
-    const double needed = bytes * window.width() * window.height();
+    if (goal.passes == 1) return;
+    const double needed = kBytesAPixelOfPasses * window.width() * window.height();
     const double present =
         static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
     if (needed <= present) return;
     throw UsageError(
-        fmt::format("{}x{} pixels need {:.1f} GB of memory, this machine has {:.1f} GB; allowed: a smaller "
-                    "--size, or the frame in parts by --crop",
+        fmt::format("{}x{} pixels in passes need {:.1f} GB of memory, this machine has {:.1f} GB; allowed: one pass, a "
+                    "smaller --size, or the frame in parts by --crop",
                     window.width(), window.height(), needed / 1e9, present / 1e9));
 }
 
@@ -175,13 +174,17 @@ Job prepare(const RenderRequest& request) {
     job.tracer = choose(request.tracer, job.loaded.tracer, "fast");
     parse_tracer(job.tracer);
     const std::string format = choose(request.format, job.loaded.exr_format, "half");
-    job.write = {.exposure = job.loaded.scene.film.exposure, .exr_format = parse_format(format)};
+    const bool is_tiled = request.tiled || job.loaded.is_tiled;
+    job.write = {.exposure = job.loaded.scene.film.exposure,
+                 .exr_format = parse_format(format),
+                 .exr_layout = is_tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic};
     job.goal = choose_goal(request, job.loaded);
     check_memory(job.window, job.goal);
     job.outputs = output_paths(request, job);
     job.statistics = request.statistics;
     check_statistics(job);
     job.metadata = picture_metadata(job.loaded.scene, job.window, job.tracer, format);
+    if (is_tiled) job.metadata.set("strata:tiled", "asked for");
     return job;
 }
 

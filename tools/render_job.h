@@ -19,7 +19,7 @@ struct RenderRequest {
     std::vector<std::string> outputs;
     std::string crop, tracer, simd, format, statistics, threads = "0", tile = "32";
     std::string passes, target_rmse, time_limit;
-    bool quiet = false;
+    bool quiet = false, tiled = false;
 };
 
 // All that is known before the first ray.

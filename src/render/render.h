@@ -34,8 +34,8 @@ RenderResult render(const ImageFunction& image, const Estimator& estimator, cons
                     const RenderOptions& options = {});
 
 // The same pixels, given away in strips of `strip_rows` >= 1 rows while the render goes on: of the picture only a few
-// strips are held at any time. The sink is called from any thread and given the whole window, of a cancelled render too.
-// What it throws is thrown again after the render, which goes on without calling it: to stop, request cancelling.
+// strips are held at any time. The sink is called from any thread and given the whole window, of a cancelled render
+// too. What it throws is thrown again after the render, which goes on without calling it: to stop, request cancelling.
 RenderResult render_strips(const ImageFunction& image, const Estimator& estimator, const Window& window,
                            const RenderOptions& options, int strip_rows, StripSink sink);
 

@@ -50,7 +50,7 @@ class SharedRender {
     std::vector<float> fraction_u_, fraction_v_;  // of the run's samples
     std::vector<glm::vec3> radiance_;
     PixelAccumulators accumulators_;
-    int finished_end_;  // pixel rows above are in the film
+    int finished_end_;   // pixel rows above are in the film
     int given_end_ = 0;  // strips above are given away
 };
 

@@ -28,8 +28,8 @@ struct StripLayout {
     Window strip(int number) const;
 };
 
-// Each strip is worked on in a number of parts, by any threads. Parts are begun in the order of the strips, but for those
-// that are set aside, and every part is ended, finished or not.
+// Each strip is worked on in a number of parts, by any threads. Parts are begun in the order of the strips, but for
+// those that are set aside, and every part is ended, finished or not.
 class StripFilm {
   public:
     // parts: of each strip. At most `most_open` strips are held at once, beside what is set aside.

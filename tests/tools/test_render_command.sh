@@ -31,7 +31,8 @@ check_wrong_values() {
     refuses 'an m out of range tells the range' 2 '*1 to 100*' render -m 0
     refuses 'an unknown estimator gets the nearest name' 2 "*did you mean 'stratified'*" render --estimator stratifed
     refuses 'a size needs two numbers' 2 '*WIDTHxHEIGHT*' render --size 16
-    refuses 'a size too large for memory is refused with the way out' 2 '*GB of memory*--crop*' render --size 65536x65536
+    refuses 'a size too large for memory is refused with the way out' 2 '*GB of memory*--crop*' render --size 65536x65536 \
+        --passes 2
     refuses 'an inverted crop is refused' 2 '*--crop 5,5,2,2:*x0 < x1 <= 16*' render --size 16x9 --crop 5,5,2,2
     refuses 'a crop beyond the frame is refused' 2 '*--crop 0,0,17,9:*' render --size 16x9 --crop 0,0,17,9
     refuses 'a crop with a negative corner is refused' 2 '*--crop -1,0,4,4:*' render --crop -1,0,4,4

@@ -1,0 +1,86 @@
+#include "tools/picture_outputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <new>
+
+#include "tools/standard_output.h"
+
+namespace strata::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+image::PictureShape shape_of(const Job& job) {
+    const scene::Film& frame = job.loaded.scene.film;
+    const render::Window& w = job.window;
+    return {frame.width, frame.height, w.x0, w.y0, w.x1, w.y1};
+}
+
+}  // namespace
+
+PictureOutputs::PictureOutputs(const Job& job, const image::Metadata& metadata) : is_quiet_(job.quiet) {
+    for (const fs::path& path : job.outputs) {
+        outputs_.push_back({path, image::PictureStream(path, shape_of(job), metadata, job.write)});
+    }
+}
+
+// Of each file that is left: a failure ends that file alone.
+template <class Action>
+void PictureOutputs::for_each(const Action& action) {
+    for (Output& output : outputs_) {
+        if (!output.stream) continue;
+        try {
+            action(output);
+            continue;
+        } catch (const std::bad_alloc&) {
+            print_error(fmt::format("out of memory while writing \"{}\"", output.path.string()));
+        } catch (const std::exception& error) {
+            print_error(error.what());
+        }
+        output.stream.reset();
+    }
+}
+
+void PictureOutputs::write_rows(std::span<const glm::vec3> pixels) {
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    const std::span<const float> rgb(&pixels[0].x, 3 * pixels.size());
+    for_each([&](Output& output) { output.stream->write(rgb); });
+}
+
+void PictureOutputs::write(const render::Film& strip) { write_rows(strip.pixels()); }
+
+void PictureOutputs::write_whole(const render::Film& film) {
+    const std::span<const glm::vec3> pixels(film.pixels());
+    const auto strip = static_cast<std::size_t>(film.window().width()) * image::kStripRows;
+    for (std::size_t begin = 0; begin < pixels.size(); begin += strip) {
+        write_rows(pixels.subspan(begin, std::min(strip, pixels.size() - begin)));
+    }
+}
+
+bool PictureOutputs::any() const {
+    return std::ranges::any_of(outputs_, [](const Output& output) { return output.stream.has_value(); });
+}
+
+bool PictureOutputs::finish() {
+    for_each([&](Output& output) {
+        output.stream->finish();
+        if (!is_quiet_) print_out(fmt::format("wrote    {}\n", output.path.string()));
+    });
+    return std::ranges::all_of(outputs_, [](const Output& output) { return output.stream.has_value(); });
+}
+
+bool PictureOutputs::finish_partial(const image::Metadata& metadata) {
+    for_each([&](Output& output) {
+        const fs::path target = partial_path(output.path);
+        output.stream->finish_partial(target, metadata);
+        if (!is_quiet_) print_out(fmt::format("wrote    {}\n", target.string()));
+    });
+    return std::ranges::all_of(outputs_, [](const Output& output) { return output.stream.has_value(); });
+}
+
+}  // namespace strata::tools
