@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <vector>
 
 #include "src/image/encoder.h"
 #include "src/image/image_error.h"
@@ -11,7 +12,8 @@
 namespace strata::image {
 namespace {
 
-// Encoders do not stop well when they cannot write: they are told that they could, and check() tells.
+// Encoders do not stop well when they cannot write: they are told that they could, and flush_or_throw() tells. They
+// write headers byte by byte, which are gathered here.
 class FileProxy final : public OIIO::Filesystem::IOProxy {
   public:
     explicit FileProxy(const std::filesystem::path& target) : IOProxy(target.string(), Write), file_(target) {}
@@ -26,25 +28,38 @@ class FileProxy final : public OIIO::Filesystem::IOProxy {
     }
 
     std::size_t pwrite(const void* data, std::size_t count, std::int64_t offset) override {
-        if (!failure_) {
-            try {
-                file_.write_at(offset, {static_cast<const unsigned char*>(data), count});
-            } catch (...) {
-                failure_ = std::current_exception();
-            }
+        constexpr std::size_t kGathered = 1 << 16;
+        if (offset != gathered_at_ + static_cast<std::int64_t>(gathered_.size()) || gathered_.size() >= kGathered) {
+            write_gathered();
+            gathered_at_ = offset;
         }
+        const auto* bytes = static_cast<const unsigned char*>(data);
+        gathered_.insert(gathered_.end(), bytes, bytes + count);
         size_ = std::max(size_, offset + static_cast<std::int64_t>(count));
         return count;
     }
 
-    void check() const {
+    // Throws ImageError if anything could not be written.
+    void flush_or_throw() {
+        write_gathered();
         if (failure_) std::rethrow_exception(failure_);
     }
 
     OutputFile& file() { return file_; }
 
   private:
+    void write_gathered() {
+        try {
+            if (!failure_) file_.write_at(gathered_at_, gathered_);
+        } catch (...) {
+            failure_ = std::current_exception();
+        }
+        gathered_.clear();
+    }
+
     OutputFile file_;
+    std::vector<unsigned char> gathered_;
+    std::int64_t gathered_at_ = 0;
     std::int64_t size_ = 0;
     std::exception_ptr failure_;
 };
@@ -65,7 +80,7 @@ struct PictureStream::State {
     void close() {
         is_closed = true;
         encoder.finish();
-        bytes.check();
+        bytes.flush_or_throw();
     }
 };
 
@@ -87,7 +102,7 @@ PictureStream::~PictureStream() {
 
 void PictureStream::write(std::span<const float> rgb) {
     state_->encoder.write_linear(rgb);
-    state_->bytes.check();
+    state_->bytes.flush_or_throw();
 }
 
 void PictureStream::finish() {
