@@ -23,7 +23,8 @@ image::PictureShape shape_of(const Job& job) {
 
 }  // namespace
 
-PictureOutputs::PictureOutputs(const Job& job, const image::Metadata& metadata) : is_quiet_(job.quiet) {
+PictureOutputs::PictureOutputs(const Job& job, const image::Metadata& metadata) : job_(job) {
+    for (const Aov aov : job.aovs) costs_.emplace_back(aov, job.window);
     for (const fs::path& path : job.outputs) {
         outputs_.push_back({path, image::PictureStream(path, shape_of(job), metadata, job.write)});
     }
@@ -46,19 +47,22 @@ void PictureOutputs::for_each(const Action& action) {
     }
 }
 
-void PictureOutputs::write_rows(std::span<const glm::vec3> pixels) {
+void PictureOutputs::write_rows(std::span<const glm::vec3> pixels, std::span<const float> extra) {
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
     const std::span<const float> rgb(&pixels[0].x, 3 * pixels.size());
-    for_each([&](Output& output) { output.stream->write(rgb); });
+    for_each([&](Output& output) { output.stream->write(rgb, extra); });
 }
 
-void PictureOutputs::write(const render::Film& strip) { write_rows(strip.pixels()); }
+void PictureOutputs::write(const render::Film& strip) {
+    write_rows(strip.pixels(), aov_values(job_.aovs, strip));
+    for (CostPicture& picture : costs_) picture.add(strip);
+}
 
 void PictureOutputs::write_whole(const render::Film& film) {
     const std::span<const glm::vec3> pixels(film.pixels());
     const auto strip = static_cast<std::size_t>(film.window().width()) * image::kStripRows;
     for (std::size_t begin = 0; begin < pixels.size(); begin += strip) {
-        write_rows(pixels.subspan(begin, std::min(strip, pixels.size() - begin)));
+        write_rows(pixels.subspan(begin, std::min(strip, pixels.size() - begin)), {});
     }
 }
 
@@ -66,21 +70,45 @@ bool PictureOutputs::any() const {
     return std::ranges::any_of(outputs_, [](const Output& output) { return output.stream.has_value(); });
 }
 
+bool PictureOutputs::all() const {
+    return std::ranges::all_of(outputs_, [](const Output& output) { return output.stream.has_value(); });
+}
+
+bool PictureOutputs::write_costs(bool is_partial, const image::Metadata& metadata) {
+    bool all_written = true;
+    for (const CostPicture& picture : costs_) {
+        const fs::path path = aov_path(job_, picture.aov());
+        const fs::path target = is_partial ? partial_path(path) : path;
+        try {
+            image::write_canvas(target, picture.draw(job_.loaded.name), metadata);
+            tell_written(target);
+        } catch (const std::exception& error) {
+            print_error(error.what());
+            all_written = false;
+        }
+    }
+    return all_written;
+}
+
+void PictureOutputs::tell_written(const fs::path& path) const {
+    if (!job_.quiet) print_out(fmt::format("wrote    {}\n", path.string()));
+}
+
 bool PictureOutputs::finish() {
     for_each([&](Output& output) {
         output.stream->finish();
-        if (!is_quiet_) print_out(fmt::format("wrote    {}\n", output.path.string()));
+        tell_written(output.path);
     });
-    return std::ranges::all_of(outputs_, [](const Output& output) { return output.stream.has_value(); });
+    return write_costs(false, job_.metadata) && all();
 }
 
 bool PictureOutputs::finish_partial(const image::Metadata& metadata) {
     for_each([&](Output& output) {
         const fs::path target = partial_path(output.path);
         output.stream->finish_partial(target, metadata);
-        if (!is_quiet_) print_out(fmt::format("wrote    {}\n", target.string()));
+        tell_written(target);
     });
-    return std::ranges::all_of(outputs_, [](const Output& output) { return output.stream.has_value(); });
+    return write_costs(true, metadata) && all();
 }
 
 }  // namespace strata::tools

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "src/image/metadata.h"
@@ -15,7 +16,7 @@ namespace strata::tools {
 // A file that cannot be written is told on standard error and given up; the others go on.
 class PictureOutputs {
   public:
-    // Begins the job's files, hidden until they are whole. Throws ImageError when one cannot be begun.
+    // Begins the files of the job, which stays where it is,, hidden until they are whole. Throws ImageError when one cannot be begun.
     PictureOutputs(const Job& job, const image::Metadata& metadata);
 
     // The next image::kStripRows rows, or those that are left.
@@ -27,7 +28,7 @@ class PictureOutputs {
     // Whether there is still a file to be written.
     bool any() const;
 
-    // Puts the files in place. False if one of them, now or earlier, could not be written.
+    // Puts the files in place, and the pictures of AOVs. False if one of them, now or earlier, could not be written.
     bool finish();
 
     // As NAME.partial.EXT, with other metadata.
@@ -41,9 +42,13 @@ class PictureOutputs {
 
     template <class Action>
     void for_each(const Action& action);
-    void write_rows(std::span<const glm::vec3> pixels);
+    void write_rows(std::span<const glm::vec3> pixels, std::span<const float> extra);
+    bool write_costs(bool is_partial, const image::Metadata& metadata);
+    bool all() const;
+    void tell_written(const std::filesystem::path& path) const;
 
-    bool is_quiet_;
+    const Job& job_;
+    std::vector<CostPicture> costs_;
     std::vector<Output> outputs_;
 };
 

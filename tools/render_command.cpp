@@ -111,7 +111,8 @@ int render_command(const RenderRequest& request) {
     const Job job = prepare(request);
     render::ProgressPrinter progress(job.quiet);
     const render::RenderOptions options{
-        .threads = job.threads, .tile = job.tile, .on_progress = progress.callback(), .cancel = &cancel};
+        .threads = job.threads, .tile = job.tile, .on_progress = progress.callback(), .cancel = &cancel,
+        .with_costs = !job.aovs.empty()};
     const auto tell_end = [&](const render::ProgressiveResult& result) {
         progress.clear();
         warn_of_unresolved(job, result.render.counters.unresolved_rays);
@@ -162,6 +163,12 @@ void add_render_command(CLI::App& program, int& exit_code) {
     command->add_option("--format", request->format, "EXR channels: half or float; default half")->type_name("NAME");
     command->add_flag("--tiled", request->tiled,
                       "EXR in tiles of 64x64, as from 4096 pixels on either side without being asked");
+    command
+        ->add_option("--aov", request->aov,
+                     "Also keep what pixels cost, as means over their own samples: tracer steps, noise evaluations; in "
+                     "EXR as 32-bit channels steps.Y and evals.Y, and as false-colour pictures NAME.steps.png and "
+                     "NAME.evals.png beside the first output")
+        ->type_name("steps,evals");
     command->add_option("--stats", request->statistics, "Write counts and times as JSON")->type_name("FILE.json");
     command
         ->add_option("--passes", request->passes,
@@ -184,8 +191,8 @@ void add_render_command(CLI::App& program, int& exit_code) {
         "EXR and TIFF keep the crop as data window in the frame; PNG and JPEG hold the crop alone.\n"
         "One pass is written while it is rendered, to a hidden file that gets its name when it is whole: memory does\n"
         "not grow with the height. Several passes, and JPEG, are held whole.\n"
-        "A picture given as SCENE is rendered again as its metadata say, --crop, --format, --tiled, --tracer, "
-        "--simd and --passes included.\n"
+        "A picture given as SCENE is rendered again as its metadata say, --crop, --aov, --format, --tiled, "
+        "--tracer, --simd and --passes included.\n"
         "The picture of K passes is the same whatever stopped it at K: its metadata hold K, and --passes K makes it "
         "again."
         "\nThe noise told from differences leaves out what all passes share: the bias, of order 1/N^2, of jittered and "

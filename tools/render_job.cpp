@@ -12,6 +12,7 @@
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
 #include "src/image/read.h"
+#include "src/image/text.h"
 #include "src/scene/enum_names.h"
 #include "src/scene/key_text.h"
 #include "tools/duration.h"
@@ -145,6 +146,29 @@ std::vector<fs::path> output_paths(const RenderRequest& request, const Job& job)
     return paths;
 }
 
+void choose_aovs(const RenderRequest& request, Job& job) {
+    const bool given = !request.aov.empty();
+    if (!given && !job.loaded.aovs) return;
+    job.aovs = parse_aovs(given ? request.aov : *job.loaded.aovs);
+    if (job.goal.passes > 1) {
+        throw UsageError("--aov: allowed with one pass; not with --passes, --target-rmse or --time-limit");
+    }
+    image::check_fonts();
+    job.write.exr_extra = aov_channels(job.aovs);
+}
+
+void check_aov_paths(const Job& job) {
+    for (const Aov aov : job.aovs) {
+        const fs::path path = aov_path(job, aov);
+        image::check_writable(path);
+        image::check_writable(partial_path(path));
+        if (std::ranges::any_of(job.outputs, [&](const fs::path& output) { return same_file(path, output); })) {
+            throw UsageError(fmt::format("-o {}: allowed: another name, this is where --aov {} goes", path.string(),
+                                         name_of(aov)));
+        }
+    }
+}
+
 void check_statistics(const Job& job) {
     if (job.statistics.empty()) return;
     image::check_replaceable(job.statistics);
@@ -157,6 +181,11 @@ void check_statistics(const Job& job) {
 }
 
 }  // namespace
+
+fs::path aov_path(const Job& job, Aov aov) {
+    fs::path path = job.outputs.front();
+    return path.replace_extension("." + name_of(aov) + ".png");
+}
 
 fs::path partial_path(fs::path path) {
     const std::string extension = path.extension().string();
@@ -179,12 +208,17 @@ Job prepare(const RenderRequest& request) {
                  .exr_format = parse_format(format),
                  .exr_layout = is_tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic};
     job.goal = choose_goal(request, job.loaded);
+    choose_aovs(request, job);
     check_memory(job.window, job.goal);
     job.outputs = output_paths(request, job);
+    check_aov_paths(job);
     job.statistics = request.statistics;
     check_statistics(job);
     job.metadata = picture_metadata(job.loaded.scene, job.window, job.tracer, format);
     if (is_tiled) job.metadata.set("strata:tiled", "asked for");
+    std::string aovs;
+    for (const Aov aov : job.aovs) aovs += (aovs.empty() ? "" : ",") + name_of(aov);
+    if (!aovs.empty()) job.metadata.set("strata:aov", aovs);
     return job;
 }
 

@@ -92,10 +92,20 @@ bool is_tiled(const PictureShape& shape, ExrLayout layout) {
     return std::max(shape.width(), shape.height()) >= kTiledFrom;
 }
 
+void add_channels(OIIO::ImageSpec& spec, const std::vector<std::string>& names) {
+    spec.channelformats.assign(3, spec.format);
+    for (const std::string& name : names) {
+        ++spec.nchannels;
+        spec.channelnames.push_back(name);
+        spec.channelformats.push_back(OIIO::TypeDesc::FLOAT);
+    }
+}
+
 OIIO::ImageSpec make_spec(const std::filesystem::path& path, Format format, const PictureShape& shape,
                           const Metadata& metadata, const WriteOptions& options) {
     OIIO::ImageSpec spec(shape.width(), shape.height(), 3, pixel_type(format, options.exr_format));
     const bool linear = format == Format::exr;
+    if (linear && !options.exr_extra.empty()) add_channels(spec, options.exr_extra);
     const bool windows = linear || format == Format::tiff;
     if (windows) set_windows(spec, shape);
     if (windows) spec.attribute("compression", "zip");
@@ -156,18 +166,17 @@ void Encoder::write(OIIO::TypeDesc type, const void* values, int rows) {
     if (!written) fail(path_, output_->geterror());
 }
 
-void Encoder::write_linear(std::span<const float> rgb) {
+void Encoder::write_linear(std::span<const float> rgb, std::span<const float> extra) {
     const int rows = rows_of(rgb.size());
     count_not_finite(rgb);
     if (not_finite_ > 0) {
         // The file will not be kept, but must become whole; NaN has no code.
-        const std::vector<float> black(rgb.size(), 0.0f);
+        const std::vector<float> black(rgb.size() / 3 * channels(), 0.0f);
         return write(OIIO::TypeDesc::FLOAT, black.data(), rows);
     }
     switch (format_) {
         case Format::exr:
-            if (options_.exr_format == ExrFormat::floating) return write(OIIO::TypeDesc::FLOAT, rgb.data(), rows);
-            return write(OIIO::TypeDesc::FLOAT, clamp_to_half(rgb).data(), rows);
+            return write_exr(rgb, extra, rows);
         case Format::tiff:
             return write(OIIO::TypeDesc::UINT16, quantise<std::uint16_t>(rgb, options_.exposure).data(), rows);
         case Format::png:
@@ -175,6 +184,24 @@ void Encoder::write_linear(std::span<const float> rgb) {
             break;
     }
     write(OIIO::TypeDesc::UINT8, quantise<std::uint8_t>(rgb, options_.exposure).data(), rows);
+}
+
+void Encoder::write_exr(std::span<const float> rgb, std::span<const float> extra, int rows) {
+    std::vector<float> clamped;
+    if (options_.exr_format == ExrFormat::half) rgb = clamped = clamp_to_half(rgb);
+    const std::size_t extra_channels = channels() - 3;
+    if (extra_channels == 0) return write(OIIO::TypeDesc::FLOAT, rgb.data(), rows);
+    if (extra.size() != rgb.size() / 3 * extra_channels)
+        fail(path_, fmt::format("{} values do not make {} channels beside {} pixels", extra.size(), extra_channels,
+                                rgb.size() / 3));
+    std::vector<float> all;
+    all.reserve(rgb.size() + extra.size());
+    for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
+        const auto colour = rgb.subspan(3 * i, 3), beside = extra.subspan(extra_channels * i, extra_channels);
+        all.insert(all.end(), colour.begin(), colour.end());
+        all.insert(all.end(), beside.begin(), beside.end());
+    }
+    write(OIIO::TypeDesc::FLOAT, all.data(), rows);
 }
 
 void Encoder::write_codes(std::span<const float> rgb) {
@@ -187,22 +214,24 @@ void Encoder::write_codes(std::span<const float> rgb) {
 
 void Encoder::copy(OIIO::ImageInput& written) {
     const OIIO::ImageSpec& from = written.spec();
-    const OIIO::TypeDesc type = pixel_type(format_, options_.exr_format);
+    // Every half is a float.
+    const OIIO::TypeDesc type = format_ == Format::exr ? OIIO::TypeDesc::FLOAT : pixel_type(format_, options_.exr_format);
+    const int chend = static_cast<int>(channels());
     std::vector<unsigned char> strip;
     while (rows_left() > 0) {
         const int rows = std::min(kStripRows, rows_left());
         const int y = from.y + next_row_;
-        strip.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(from.width) * 3 * type.size());
+        strip.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(from.width) * channels() * type.size());
         const bool read = from.tile_width > 0 ? written.read_tiles(0, 0, from.x, from.x + from.width, y, y + rows, 0, 1,
-                                                                   0, 3, type, strip.data())
-                                              : written.read_scanlines(0, 0, y, y + rows, 0, 0, 3, type, strip.data());
+                                                                   0, chend, type, strip.data())
+                                              : written.read_scanlines(0, 0, y, y + rows, 0, 0, chend, type, strip.data());
         if (!read) fail(path_, written.geterror());
         write(type, strip.data(), rows);
     }
 }
 
 void Encoder::write_rows_left() {
-    const auto row = 3 * static_cast<std::size_t>(shape_.width());
+    const auto row = channels() * static_cast<std::size_t>(shape_.width());
     const std::vector<float> black(row * static_cast<std::size_t>(std::min(kStripRows, rows_left())), 0.0f);
     while (rows_left() > 0) {
         const int rows = std::min(kStripRows, rows_left());

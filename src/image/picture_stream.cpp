@@ -100,8 +100,8 @@ PictureStream::~PictureStream() {
     }
 }
 
-void PictureStream::write(std::span<const float> rgb) {
-    state_->encoder.write_linear(rgb);
+void PictureStream::write(std::span<const float> rgb, std::span<const float> extra) {
+    state_->encoder.write_linear(rgb, extra);
     state_->bytes.flush_or_throw();
 }
 

@@ -21,8 +21,9 @@ class PictureStream {
     PictureStream(PictureStream&&) noexcept;
     PictureStream& operator=(PictureStream&&) noexcept;
 
-    // The next kStripRows rows, or those that are left: linear radiance, three floats a pixel.
-    void write(std::span<const float> rgb);
+    // The next kStripRows rows, or those that are left: linear radiance, three floats a pixel; and for an EXR as many
+    // values a pixel as WriteOptions::exr_extra names, which other formats leave out.
+    void write(std::span<const float> rgb, std::span<const float> extra = {});
 
     // After the last row.
     void finish();

@@ -6,6 +6,8 @@
 #include <glm/glm.hpp>
 #include <span>
 
+#include "src/render/sample_cost.h"
+
 namespace strata::render {
 
 // Work done, exact and independent of threads and tiles; but for executed_lanes, which also counts SIMD lanes that idle
@@ -37,6 +39,10 @@ class ImageFunction {
     // Linear radiance of each sample. A sample's result depends on that sample alone, never on the rest of the batch.
     // Thread-safe. counters belong to the caller.
     virtual void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const = 0;
+
+    // The same radiance, and what each sample cost: nothing, unless a function traces.
+    virtual void evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance,
+                                     std::span<SampleCost> costs, Counters& counters) const;
 };
 
 }  // namespace strata::render

@@ -22,7 +22,7 @@ RenderResult render(const ImageFunction& image, const Estimator& estimator, cons
                     const RenderOptions& options) {
     Film film;
     RenderResult result = render_strips(image, estimator, window, options, kWholeFilmStrip, [&](const Film& strip) {
-        if (film.pixels().empty()) film = Film(window);
+        if (film.pixels().empty()) film = Film(window, options.with_costs);
         film.paste(strip);
     });
     result.film = std::move(film);

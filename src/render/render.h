@@ -15,6 +15,7 @@ struct RenderOptions {
     int tile = 32;                        // side in pixels, >= 1
     ProgressCallback on_progress;         // may be empty; called from any thread, one call at a time
     const CancelToken* cancel = nullptr;  // looked at between batches
+    bool with_costs = false;              // films hold what pixels cost
 };
 
 struct RenderResult {

@@ -19,6 +19,7 @@ struct alignas(64) Worker {
     SampleSet samples;
     std::vector<glm::ivec2> owners;  // pixels or cells of `samples`
     std::vector<glm::vec3> radiance;
+    std::vector<SampleCost> costs;  // empty unless asked for
     Counters counters;
     double cpu_seconds = 0;
 };
@@ -35,6 +36,9 @@ class RenderContext {
     bool evaluate(Worker& worker, std::span<glm::vec3> radiance) const;
 
     bool cancelled() const { return options.cancel != nullptr && options.cancel->requested(); }
+
+    // Of the samples of worker.owners[owner], which were evaluated with costs.
+    glm::vec2 mean_cost(const Worker& worker, std::size_t owner) const;
 
     // As many owners as fill a batch, at least one.
     std::size_t owners_a_batch() const;

@@ -33,6 +33,7 @@ class SharedRender {
     CellSamples samples_of(std::int64_t index, const Run& run) const;
     int accumulator_rows() const;
     void evaluate(const Run& run);
+    void set_costs(const Worker& worker);
     void give_away(Worker& worker, int strips_end);
     void evaluate_block(Worker& worker, std::int64_t first, std::int64_t last, const Run& run);
     void add_up(const Run& run);
@@ -61,12 +62,15 @@ std::int64_t cells_in_a_run(const Window& cells, std::size_t samples_a_cell) {
     return std::min({fitting, kRunRows * cells.width(), total});
 }
 
-// Strips that hold rows of one run, finished or given away beside the next.
-int most_open(const StripLayout& layout) { return 2 * (static_cast<int>(kRunRows) / layout.rows + 2); }
+// Strips that hold rows of one run, finished or given away beside the next; with the rows that wait for others.
+int most_open(const StripLayout& layout, int reach) {
+    return 2 * ((static_cast<int>(kRunRows) + 2 * reach) / layout.rows + 2);
+}
 
 SharedRender::SharedRender(RenderContext& context, const StripLayout& layout, StripSink sink)
     : context_(context),
-      film_(layout, std::vector<int>(static_cast<std::size_t>(layout.count()), 1), most_open(layout), std::move(sink)),
+      film_(layout, std::vector<int>(static_cast<std::size_t>(layout.count()), 1), 
+            most_open(layout, context.estimator.weights().reach()), context.options.with_costs, std::move(sink)),
       window_(film_.layout().window),
       cells_(cells_of(window_, context.estimator)),
       reach_(context.estimator.weights().reach()),
@@ -131,7 +135,17 @@ void SharedRender::evaluate_block(Worker& worker, std::int64_t first, std::int64
     if (!context_.evaluate(worker, std::span(radiance_).subspan(offset, count))) return;
     std::copy_n(worker.samples.fraction_u.begin(), count, fraction_u_.begin() + static_cast<std::ptrdiff_t>(offset));
     std::copy_n(worker.samples.fraction_v.begin(), count, fraction_v_.begin() + static_cast<std::ptrdiff_t>(offset));
+    if (context_.options.with_costs) set_costs(worker);
     context_.progress.add(last - first, static_cast<std::int64_t>(count));
+}
+
+// A cell is a pixel's square: its samples are those taken for that pixel.
+void SharedRender::set_costs(const Worker& worker) {
+    for (std::size_t i = 0; i < worker.owners.size(); ++i) {
+        const auto& [x, y] = std::pair(worker.owners[i].x, worker.owners[i].y);
+        if (x < window_.x0 || x >= window_.x1 || y < window_.y0 || y >= window_.y1) continue;
+        film_.open(film_.layout().strip_at(y)).set_cost(x, y, context_.mean_cost(worker, i));
+    }
 }
 
 // Below the returned row, pixels still wait for cells after the run.

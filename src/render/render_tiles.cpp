@@ -35,7 +35,9 @@ bool render_pixels(RenderContext& context, Worker& worker, Film& film) {
     const std::span<const double> weight(worker.samples.weight);
     for (std::size_t p = 0; p < worker.owners.size(); ++p) {
         const std::span<const double> pixel_weight = weight.empty() ? weight : weight.subspan(p * n, n);
-        film.finish(worker.owners[p].x, worker.owners[p].y, weighted_mean(radiance.subspan(p * n, n), pixel_weight));
+        const auto [x, y] = std::pair(worker.owners[p].x, worker.owners[p].y);
+        film.finish(x, y, weighted_mean(radiance.subspan(p * n, n), pixel_weight));
+        if (context.options.with_costs) film.set_cost(x, y, context.mean_cost(worker, p));
     }
     const auto pixels = static_cast<std::int64_t>(worker.owners.size());
     context.progress.add(pixels, pixels * context.estimator.sample_count());
@@ -72,7 +74,8 @@ class TiledStrips {
         : context_(context),
           tiles_a_strip_(tiles(layout, 0).count()),
           total_(tiles_a_strip_ * (layout.count() - 1) + tiles(layout, layout.count() - 1).count()),
-          film_(layout, parts(layout), most_open(context.threads(), tiles_a_strip_), std::move(sink)) {
+          film_(layout, parts(layout), most_open(context.threads(), tiles_a_strip_), context.options.with_costs,
+                std::move(sink)) {
         const Window first = tiles(layout, 0).tile(0);
         most_ahead_ = std::clamp<std::int64_t>(kPixelsAhead / (std::int64_t{1} * first.width() * first.height()), 1,
                                                kSpreadTiles);
@@ -127,7 +130,7 @@ void TiledStrips::render_in_order(Worker& worker, int strip, const Window& tile)
 void TiledStrips::render_ahead(Worker& worker, int strip, const Window& tile) {
     const PartScope part(film_, strip, worker);
     if (context_.cancelled()) return;
-    Film film(tile);
+    Film film(tile, context_.options.with_costs);
     render_tile(context_, worker, tile, film);
     film_.set_aside(strip, std::move(film));
 }

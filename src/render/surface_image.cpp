@@ -45,6 +45,13 @@ struct SurfaceImage::Chunk {
     std::vector<glm::vec3> normal;
     std::vector<Lit> lit;
     std::vector<std::size_t> shadow_owner;
+    std::span<SampleCost> costs;  // empty: not asked for
+
+    void add_cost(std::size_t sample, const trace::Hit& hit) {
+        if (costs.empty()) return;
+        costs[sample].steps += hit.steps;
+        costs[sample].noise_evaluations += hit.noise_evaluations;
+    }
 
     // What is filled hit by hit would be copied over and over while it grows: 5 to 8 % of a render.
     void reserve(std::size_t count, bool drifts, bool has_shadows) {
@@ -140,12 +147,19 @@ void SurfaceImage::normals(std::span<const trace::Hit> hits, std::span<const glm
 }
 
 void SurfaceImage::evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const {
+    evaluate_with_costs(samples, radiance, {}, counters);
+}
+
+void SurfaceImage::evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance,
+                                       std::span<SampleCost> costs, Counters& counters) const {
+    std::fill(costs.begin(), costs.end(), SampleCost{});
     Chunk chunk;
     chunk.reserve(std::min(kChunk, samples.u.size()), field_.drifts(), scene::needs_shadow_rays(scene_.sun));
     for (std::size_t begin = 0; begin < samples.u.size(); begin += kChunk) {
         const std::size_t count = std::min(kChunk, samples.u.size() - begin);
         const SampleBatch part{samples.u.subspan(begin, count), samples.v.subspan(begin, count),
                                samples.t.subspan(begin, count)};
+        if (!costs.empty()) chunk.costs = costs.subspan(begin, count);
         evaluate_chunk(part, radiance.subspan(begin, count), chunk, counters);
     }
 }
@@ -187,6 +201,7 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
     for (std::size_t i = 0; i < count; ++i) {
         const trace::Ray& ray = chunk.rays[i];
         const trace::Hit& hit = chunk.hits[i];
+        chunk.add_cost(i, hit);
         if (hit.state == trace::HitState::miss) {
             radiance[i] = shaders::sky_radiance(scene_.sky, chunk.view[i]);
         } else if (hit.state == trace::HitState::unresolved) {
@@ -205,6 +220,9 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
     for (std::size_t i = 0; i < chunk.lit.size(); ++i) {
         Lit& lit = chunk.lit[i];
         lit.normal = glm::dvec3(chunk.normal[i]);
+        if (!chunk.costs.empty() && !chunk.surface_hits[i].on_bound) {
+            chunk.costs[lit.sample].noise_evaluations += static_cast<std::uint32_t>(field_.octaves().size());
+        }
         lit.height = is_planet ? field_.base(chunk.x[i]) : chunk.x[i].y;
         if (is_planet) lit.up = field_.base_gradient(chunk.x[i]);
     }
@@ -231,6 +249,7 @@ void SurfaceImage::shadow(Chunk& chunk, Counters& counters) const {
     trace(chunk.shadow_rays, chunk.shadow_hits, traced);
     for (std::size_t i = 0; i < chunk.shadow_hits.size(); ++i) {
         const trace::HitState state = chunk.shadow_hits[i].state;
+        chunk.add_cost(chunk.lit[chunk.shadow_owner[i]].sample, chunk.shadow_hits[i]);
         if (state != trace::HitState::miss) chunk.lit[chunk.shadow_owner[i]].visibility = 0.0;
         if (state == trace::HitState::unresolved) ++counters.unresolved_rays;
     }

@@ -26,6 +26,8 @@ class SurfaceImage final : public ImageFunction {
     SurfaceImage& operator=(const SurfaceImage&) = delete;
 
     void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const override;
+    void evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance, std::span<SampleCost> costs,
+                             Counters& counters) const override;
 
     const trace::Field& field() const { return field_; }
     const trace::Placement& placement() const { return placement_; }
