@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "src/image/difference.h"
 #include "src/image/sheet.h"
@@ -39,11 +38,13 @@ std::vector<Aov> parse_aovs(const std::string& text) {
         const std::string word = text.substr(begin, end - begin);
         begin = end + 1;
         if (word != "steps" && word != "evals") {
-            throw UsageError(fmt::format("--aov {}: allowed: steps, evals, or both with a comma", scene::excerpt(text)));
+            throw UsageError(
+                fmt::format("--aov {}: allowed: steps, evals, or both with a comma", scene::excerpt(text)));
         }
         const Aov aov = word == "steps" ? Aov::steps : Aov::evals;
         if (std::ranges::find(aovs, aov) == aovs.end()) aovs.push_back(aov);
     }
+    std::ranges::sort(aovs);
     return aovs;
 }
 
@@ -83,7 +84,7 @@ void CostPicture::add(const render::Film& strip) {
     }
 }
 
-image::Canvas CostPicture::draw(const std::string& scene) const {
+image::Canvas CostPicture::draw(const std::string& title) const {
     image::Picture picture = image::make_picture(width_, height_);
     double largest = 0;
     for (int y = 0; y < height_; ++y) {
@@ -98,7 +99,7 @@ image::Canvas CostPicture::draw(const std::string& scene) const {
     }
     const double top = image::scale_top(largest);
     image::Sheet sheet;
-    sheet.title = scene;
+    sheet.title = title;
     const image::Canvas canvas = image::difference(picture, grey(width_, height_, 0.0f), top);
     sheet.rows = {{{canvas, "", false}}};
     sheet.scale = image::difference_scale(std::clamp(width_, 320, 640), top, meaning(aov_));

@@ -11,14 +11,15 @@
 
 namespace strata::tools {
 
-enum class Aov { steps, evals };
+// In the order of their channels.
+enum class Aov { evals, steps };
 
 std::string name_of(Aov aov);
 
-// "steps,evals", any of them once. Throws UsageError for another word.
+// "steps,evals" and the like, in the order of their channels, each once. Throws UsageError for another word.
 std::vector<Aov> parse_aovs(const std::string& text);
 
-// Channels of an EXR: "steps.Y", "evals.Y".
+// Channels of an EXR: "evals.Y", "steps.Y".
 std::vector<std::string> aov_channels(const std::vector<Aov>& aovs);
 
 // The values of the strip's pixels, one after the other as many as there are `aovs`.
@@ -36,7 +37,7 @@ class CostPicture {
     void add(const render::Film& strip);
 
     // In false colour, with a scale that begins at 0.
-    image::Canvas draw(const std::string& scene) const;
+    image::Canvas draw(const std::string& title) const;
 
   private:
     Aov aov_;

@@ -80,7 +80,7 @@ bool PictureOutputs::write_costs(bool is_partial, const image::Metadata& metadat
         const fs::path path = aov_path(job_, picture.aov());
         const fs::path target = is_partial ? partial_path(path) : path;
         try {
-            image::write_canvas(target, picture.draw(job_.loaded.name), metadata);
+            image::write_canvas(target, picture.draw(job_.loaded.scene.title), metadata);
             tell_written(target);
         } catch (const std::exception& error) {
             print_error(error.what());

@@ -16,7 +16,8 @@ namespace strata::tools {
 // A file that cannot be written is told on standard error and given up; the others go on.
 class PictureOutputs {
   public:
-    // Begins the files of the job, which stays where it is,, hidden until they are whole. Throws ImageError when one cannot be begun.
+    // Begins the files of the job, which stays where it is,, hidden until they are whole. Throws ImageError when one
+    // cannot be begun.
     PictureOutputs(const Job& job, const image::Metadata& metadata);
 
     // The next image::kStripRows rows, or those that are left.

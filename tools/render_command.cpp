@@ -110,9 +110,11 @@ int render_command(const RenderRequest& request) {
     render::cancel_on_signals(cancel);
     const Job job = prepare(request);
     render::ProgressPrinter progress(job.quiet);
-    const render::RenderOptions options{
-        .threads = job.threads, .tile = job.tile, .on_progress = progress.callback(), .cancel = &cancel,
-        .with_costs = !job.aovs.empty()};
+    const render::RenderOptions options{.threads = job.threads,
+                                        .tile = job.tile,
+                                        .on_progress = progress.callback(),
+                                        .cancel = &cancel,
+                                        .with_costs = !job.aovs.empty()};
     const auto tell_end = [&](const render::ProgressiveResult& result) {
         progress.clear();
         warn_of_unresolved(job, result.render.counters.unresolved_rays);

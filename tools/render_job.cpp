@@ -163,8 +163,8 @@ void check_aov_paths(const Job& job) {
         image::check_writable(path);
         image::check_writable(partial_path(path));
         if (std::ranges::any_of(job.outputs, [&](const fs::path& output) { return same_file(path, output); })) {
-            throw UsageError(fmt::format("-o {}: allowed: another name, this is where --aov {} goes", path.string(),
-                                         name_of(aov)));
+            throw UsageError(
+                fmt::format("-o {}: allowed: another name, this is where --aov {} goes", path.string(), name_of(aov)));
         }
     }
 }

@@ -21,7 +21,8 @@ struct WriteOptions {
     double exposure = 0.0;  // stops, finite; EXR ignores it and stays linear
     ExrFormat exr_format = ExrFormat::half;
     ExrLayout exr_layout = ExrLayout::automatic;
-    std::vector<std::string> exr_extra{};  // channels of 32 bits beside R, G and B, as "steps.Y"; of streams alone
+    std::vector<std::string>
+        exr_extra{};  // channels of 32 bits beside R, G and B, as "steps.Y", sorted; of streams alone
 };
 
 // Rows encoded at once: a multiple of the 16 that EXR's zip packs together and of the 64 of its tiles, and little

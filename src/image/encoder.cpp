@@ -105,6 +105,8 @@ OIIO::ImageSpec make_spec(const std::filesystem::path& path, Format format, cons
                           const Metadata& metadata, const WriteOptions& options) {
     OIIO::ImageSpec spec(shape.width(), shape.height(), 3, pixel_type(format, options.exr_format));
     const bool linear = format == Format::exr;
+    // An EXR gives them back sorted; rows are copied as they come.
+    if (!std::ranges::is_sorted(options.exr_extra)) fail(path, "channels that are not sorted");
     if (linear && !options.exr_extra.empty()) add_channels(spec, options.exr_extra);
     const bool windows = linear || format == Format::tiff;
     if (windows) set_windows(spec, shape);
@@ -215,16 +217,18 @@ void Encoder::write_codes(std::span<const float> rgb) {
 void Encoder::copy(OIIO::ImageInput& written) {
     const OIIO::ImageSpec& from = written.spec();
     // Every half is a float.
-    const OIIO::TypeDesc type = format_ == Format::exr ? OIIO::TypeDesc::FLOAT : pixel_type(format_, options_.exr_format);
+    const OIIO::TypeDesc type =
+        format_ == Format::exr ? OIIO::TypeDesc::FLOAT : pixel_type(format_, options_.exr_format);
     const int chend = static_cast<int>(channels());
     std::vector<unsigned char> strip;
     while (rows_left() > 0) {
         const int rows = std::min(kStripRows, rows_left());
         const int y = from.y + next_row_;
         strip.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(from.width) * channels() * type.size());
-        const bool read = from.tile_width > 0 ? written.read_tiles(0, 0, from.x, from.x + from.width, y, y + rows, 0, 1,
-                                                                   0, chend, type, strip.data())
-                                              : written.read_scanlines(0, 0, y, y + rows, 0, 0, chend, type, strip.data());
+        const bool read =
+            from.tile_width > 0
+                ? written.read_tiles(0, 0, from.x, from.x + from.width, y, y + rows, 0, 1, 0, chend, type, strip.data())
+                : written.read_scanlines(0, 0, y, y + rows, 0, 0, chend, type, strip.data());
         if (!read) fail(path_, written.geterror());
         write(type, strip.data(), rows);
     }

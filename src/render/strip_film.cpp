@@ -12,9 +12,12 @@ Window StripLayout::strip(int number) const {
     return {window.x0, y0, window.x1, std::min(y0 + rows, window.y1)};
 }
 
-StripFilm::StripFilm(const StripLayout& layout, std::vector<int> parts, int most_open, bool with_costs,
-                     StripSink sink)
-    : layout_(layout), most_open_(most_open), with_costs_(with_costs), sink_(std::move(sink)), parts_left_(std::move(parts)) {}
+StripFilm::StripFilm(const StripLayout& layout, std::vector<int> parts, int most_open, bool with_costs, StripSink sink)
+    : layout_(layout),
+      most_open_(most_open),
+      with_costs_(with_costs),
+      sink_(std::move(sink)),
+      parts_left_(std::move(parts)) {}
 
 Film& StripFilm::open(int number) {
     std::unique_lock lock(mutex_);

@@ -1,3 +1,4 @@
+#include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -133,6 +134,44 @@ TEST_CASE("a partial picture keeps what was written, is black below, and says so
     }
 }
 
+TEST_CASE("an EXR's channels beside its colours keep their values to the last bit, in partial pictures too") {
+    const ScratchFolder folder;
+    const Picture picture = test_picture(70, 150);
+    std::vector<float> extra;
+    for (std::size_t i = 0; i < 2 * picture.pixels(); ++i) extra.push_back(1e5f + static_cast<float>(i) / 7);
+    for (const ExrLayout layout : {ExrLayout::scanlines, ExrLayout::tiles}) {
+        const WriteOptions plain{.exr_layout = layout};
+        write_picture(folder / "plain.exr", picture, {}, plain);
+        for (const bool is_partial : {false, true}) {
+            WriteOptions options = plain;
+            options.exr_extra = {"evals.Y", "steps.Y"};
+            PictureStream stream(folder / "a.exr", picture.shape(), {}, options);
+            for (int y = 0; y < 150; y += kStripRows) {
+                const auto begin = static_cast<std::size_t>(y * 70);
+                const auto count = static_cast<std::size_t>(std::min(kStripRows, 150 - y) * 70);
+                stream.write(std::span(picture.rgb).subspan(3 * begin, 3 * count),
+                             std::span(extra).subspan(2 * begin, 2 * count));
+            }
+            if (is_partial) {
+                stream.finish_partial(folder / "a.exr", test_metadata());
+            } else {
+                stream.finish();
+            }
+            const auto input = OIIO::ImageInput::open((folder / "a.exr").string());
+            REQUIRE(input);
+            REQUIRE(input->spec().channelnames == std::vector<std::string>{"R", "G", "B", "evals.Y", "steps.Y"});
+            std::vector<float> all(5 * picture.pixels());
+            REQUIRE(input->read_image(0, 0, 0, 5, OIIO::TypeDesc::FLOAT, all.data()));
+            std::size_t wrong = 0;
+            for (std::size_t i = 0; i < picture.pixels(); ++i) {
+                wrong += all[5 * i + 3] != extra[2 * i] || all[5 * i + 4] != extra[2 * i + 1] ? 1 : 0;
+            }
+            CHECK(wrong == 0);
+            CHECK(read_picture(folder / "a.exr").rgb == read_picture(folder / "plain.exr").rgb);
+        }
+    }
+}
+
 TEST_CASE("a stream that is given up leaves the folder as it was") {
     const ScratchFolder folder;
     const Picture picture = test_picture(20, 100);
@@ -166,9 +205,10 @@ TEST_CASE("a streamed picture that is not finite is refused with the count and p
     CHECK(folder.names().size() == 0);
 }
 
-TEST_CASE("rows that are no strip are refused") {
+TEST_CASE("rows that are no strip, and channels that an EXR would sort, are refused") {
     const ScratchFolder folder;
     const Picture picture = test_picture(10, 100);
+    CHECK_THROWS_AS(PictureStream(folder / "a.exr", picture.shape(), {}, {.exr_extra = {"b.Y", "a.Y"}}), ImageError);
     PictureStream stream(folder / "a.png", picture.shape(), {}, {});
     CHECK_THROWS_AS(stream.write(std::span(picture.rgb).subspan(0, 30)), ImageError);
     CHECK_THROWS_AS(stream.write(picture.rgb), ImageError);

@@ -128,6 +128,20 @@ $(head -c 6 tiled.exr | tail -c 1 | od -An -tu1 | tr -d ' ')" '0 2'
         render c.exr --size 8x8
 }
 
+check_aovs() {
+    refuses 'an unknown AOV gets the known ones' 2 '*--aov depth: allowed: steps, evals*' render --aov depth
+    refuses 'AOVs of several passes are refused' 2 '*--aov: allowed with one pass*' render --aov steps --passes 2
+    refuses 'a picture does not take the place of an AOV' 2 '*-o a.steps.png: allowed: another name*' \
+        render --aov steps -o a.exr -o a.steps.png
+    "$strata" render terrain "${tiny[@]}" -o plain.exr -o plain.png
+    "$strata" render terrain "${tiny[@]}" --aov evals,steps -o a.exr -o a.png
+    expect 'each AOV is a picture beside the first output' "$(echo a.*)" 'a.evals.png a.exr a.png a.steps.png'
+    expect 'channels are named in the EXR' "$(grep -aoc 'evals.Y' a.exr) $(grep -aoc 'steps.Y' plain.exr)" '1 0'
+    "$strata" render a.exr --quiet -o b.exr
+    expect_same_file 'an EXR with AOVs rendered again has them again' a.exr b.exr
+    expect_same_file 'as have the pictures to look at' a.steps.png b.steps.png
+}
+
 check_probes() {
     local lines positions
     lines=$(printf '0\n1\n0.1\n1e-300\n\n0.5' | "$strata" probe bspline -m 20)
@@ -257,4 +271,4 @@ check_failing_writes() {
 }
 
 run_groups check_unknown_words check_wrong_values check_scene_files check_outputs check_rendering_again \
-    check_probes check_samples check_signals check_failing_writes
+    check_aovs check_probes check_samples check_signals check_failing_writes
