@@ -2,18 +2,18 @@
 
 #include <cstdint>
 #include <exception>
-#include <filesystem>
+#include <functional>
 #include <memory>
 #include <new>
 
-#include "src/image/write.h"
 #include "src/render/cancel.h"
+#include "src/render/make_image.h"
 #include "src/render/progress_printer.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
 #include "tools/picture_metadata.h"
+#include "tools/picture_outputs.h"
 #include "tools/render_job.h"
-#include "tools/render_picture.h"
 #include "tools/run_statistics.h"
 #include "tools/settings_mark.h"
 #include "tools/standard_output.h"
@@ -21,8 +21,6 @@
 namespace strata::tools {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 // Runs write(); a failure is told and does not keep other files from being written.
 template <class Write>
@@ -38,24 +36,61 @@ bool succeeds(const Write& write) {
     return false;
 }
 
-// False if a file could not be written.
-bool write_outputs(const Job& job, const image::Picture& picture, const render::ProgressiveResult& result) {
-    const bool is_partial = result.render.cancelled;
+image::Metadata final_metadata(const Job& job, const render::ProgressiveResult& result) {
     image::Metadata metadata = job.metadata;
     set_passes(metadata, job.loaded.scene.sampling, result.passes);
-    if (is_partial) {
+    if (result.render.cancelled) {
         metadata.set("strata:partial",
                      result.passes == 0 ? "unfinished pixels are black"
                                         : fmt::format("the mean of {} whole passes; more were wanted", result.passes));
     }
-    bool all = true;
-    for (const fs::path& path : job.outputs) {
-        const fs::path target = is_partial ? partial_path(path) : path;
-        const bool written = succeeds([&] { image::write_picture(target, picture, metadata, job.write); });
-        if (written && !job.quiet) print_out(fmt::format("wrote    {}\n", target.string()));
-        all = all && written;
-    }
-    return all;
+    return metadata;
+}
+
+bool finish(PictureOutputs& outputs, const Job& job, const render::ProgressiveResult& result) {
+    return result.render.cancelled ? outputs.finish_partial(final_metadata(job, result)) : outputs.finish();
+}
+
+struct Rendered {
+    render::ProgressiveResult result;
+    bool all_written = true;
+};
+
+// Called between the last ray and the end of the files.
+using TellEnd = std::function<void(const render::ProgressiveResult&)>;
+
+// One pass goes into its files while it is rendered.
+Rendered render_streamed(const Job& job, const render::RenderOptions& options, render::CancelToken& cancel,
+                         const TellEnd& tell_end) {
+    const auto image = render::make_image(job.loaded.scene, parse_tracer(job.tracer));
+    const render::Estimator estimator(render::estimator_settings(job.loaded.scene));
+    PictureOutputs outputs(job, job.metadata);
+    Rendered rendered;
+    render::ProgressiveResult& result = rendered.result;
+    result.render = render::render_strips(*image, estimator, job.window, options, image::kStripRows,
+                                          [&](const render::Film& strip) {
+                                              outputs.write(strip);
+                                              if (!outputs.any()) cancel.request();  // nothing is left to render for
+                                          });
+    result.passes = result.render.cancelled ? 0 : 1;
+    result.end = result.render.cancelled ? render::PassesEnd::cancelled : render::PassesEnd::passes;
+    tell_end(result);
+    rendered.all_written = finish(outputs, job, result);
+    return rendered;
+}
+
+// The mean of several passes is known at their end.
+Rendered render_in_passes(const Job& job, const render::RenderOptions& options, const TellEnd& tell_end) {
+    const auto image = render::make_image(job.loaded.scene, parse_tracer(job.tracer));
+    Rendered rendered;
+    render::ProgressiveResult& result = rendered.result;
+    result = render::render_progressively(*image, render::estimator_settings(job.loaded.scene), job.window, job.goal,
+                                          options);
+    tell_end(result);
+    PictureOutputs outputs(job, final_metadata(job, result));
+    outputs.write_whole(result.render.film);
+    rendered.all_written = finish(outputs, job, result);
+    return rendered;
 }
 
 void warn_of_unresolved(const Job& job, std::uint64_t rays) {
@@ -64,9 +99,10 @@ void warn_of_unresolved(const Job& job, std::uint64_t rays) {
                             rays == 1 ? "ray was" : "rays were", trace::kStepLimit));
 }
 
-std::string stopped_line(const ProgressivePicture& rendered) {
-    if (rendered.result.passes > 0) return fmt::format("stopped  with {} passes finished\n", rendered.result.passes);
-    return fmt::format("stopped  with {} of {} pixels finished\n", rendered.finished_pixels, rendered.picture.pixels());
+std::string stopped_line(const Job& job, const render::ProgressiveResult& result) {
+    if (result.passes > 0) return fmt::format("stopped  with {} passes finished\n", result.passes);
+    return fmt::format("stopped  with {} of {} pixels finished\n", result.render.finished_pixels,
+                       std::int64_t{1} * job.window.width() * job.window.height());
 }
 
 int render_command(const RenderRequest& request) {
@@ -74,19 +110,25 @@ int render_command(const RenderRequest& request) {
     render::cancel_on_signals(cancel);
     const Job job = prepare(request);
     render::ProgressPrinter progress(job.quiet);
-    const ProgressivePicture rendered = render_picture(
-        job.loaded.scene, job.window, parse_tracer(job.tracer), job.goal,
-        {.threads = job.threads, .tile = job.tile, .on_progress = progress.callback(), .cancel = &cancel});
-    progress.clear();
-    const render::ProgressiveResult& result = rendered.result;
-    warn_of_unresolved(job, result.render.counters.unresolved_rays);
-    if (result.render.cancelled && !job.quiet) print_out(stopped_line(rendered));
-    bool all_written = write_outputs(job, rendered.picture, result);
-    RunStatistics statistics = collect(result, job.goal, job.loaded.name);
+    const render::RenderOptions options{.threads = job.threads,
+                                        .tile = job.tile,
+                                        .on_progress = progress.callback(),
+                                        .cancel = &cancel,
+                                        .with_costs = !job.aovs.empty()};
+    const auto tell_end = [&](const render::ProgressiveResult& result) {
+        progress.clear();
+        warn_of_unresolved(job, result.render.counters.unresolved_rays);
+        if (result.render.cancelled && !job.quiet) print_out(stopped_line(job, result));
+    };
+    Rendered rendered = job.goal.passes > 1 ? render_in_passes(job, options, tell_end)
+                                            : render_streamed(job, options, cancel, tell_end);
+    RunStatistics statistics = collect(rendered.result, job.goal, job.loaded.name);
     statistics.settings_mark = settings_mark(job.loaded.scene, job.window, job.tracer);
-    if (!job.statistics.empty()) all_written &= succeeds([&] { write_statistics(job.statistics, statistics); });
+    if (!job.statistics.empty()) {
+        rendered.all_written &= succeeds([&] { write_statistics(job.statistics, statistics); });
+    }
     if (!job.quiet) print_out(summary(statistics));
-    if (!all_written) return kExitRuntime;
+    if (!rendered.all_written) return kExitRuntime;
     // A signal that came too late to stop the render is still why the user expects an end.
     return render::cancelling_signal() != 0 ? kExitSignal + render::cancelling_signal() : 0;
 }
@@ -120,6 +162,14 @@ void add_render_command(Command& program, int& exit_code) {
     command->add_option("--simd", request->simd, "avx512, avx2, sse4 or scalar; default the best that is here")
         ->type_name("TARGET");
     command->add_option("--format", request->format, "EXR channels: half or float; default half")->type_name("NAME");
+    command->add_flag("--tiled", request->tiled,
+                      "EXR in tiles of 64x64, as from 4096 pixels on either side without being asked");
+    command
+        ->add_option("--aov", request->aov,
+                     "Also keep what pixels cost, as means over their own samples: tracer steps, noise evaluations; in "
+                     "EXR as 32-bit channels steps.Y and evals.Y, and as false-colour pictures NAME.steps.png and "
+                     "NAME.evals.png beside the first output")
+        ->type_name("steps,evals");
     command->add_option("--stats", request->statistics, "Write counts and times as JSON")->type_name("FILE.json");
     command
         ->add_option("--passes", request->passes,
@@ -140,8 +190,10 @@ void add_render_command(Command& program, int& exit_code) {
     command->footer(
         "Frame: pixel (0,0) is top left, its centre at (0.5, 0.5); u runs right, v down. World: right-handed, y up.\n"
         "EXR and TIFF keep the crop as data window in the frame; PNG and JPEG hold the crop alone.\n"
-        "A picture given as SCENE is rendered again as its metadata say, --crop, --format, --tracer, --simd and "
-        "--passes included.\n"
+        "One pass is written while it is rendered, to a hidden file that gets its name when it is whole: memory does\n"
+        "not grow with the height. Several passes, and JPEG, are held whole.\n"
+        "A picture given as SCENE is rendered again as its metadata say, --crop, --aov, --format, --tiled, "
+        "--tracer, --simd and --passes included.\n"
         "The picture of K passes is the same whatever stopped it at K: its metadata hold K, and --passes K makes it "
         "again."
         "\nThe noise told from differences leaves out what all passes share: the bias, of order 1/N^2, of jittered and "

@@ -12,6 +12,7 @@
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
 #include "src/image/read.h"
+#include "src/image/text.h"
 #include "src/scene/enum_names.h"
 #include "src/scene/key_text.h"
 #include "tools/duration.h"
@@ -57,20 +58,19 @@ void choose_simd_target(const RenderRequest& request, const LoadedScene& loaded)
                     loaded.source, *loaded.simd_target, noise::simd_target()));
 }
 
-// At the most demanding moment, of writing: picture, a copy of it for the encoder, its codes, the encoded file.
-constexpr double kBytesAPixel = 12 + 12 + 12 + 12;
-// Of several passes, while they are rendered: the sum, the pass in work and the one before it.
+// Of several passes, while they are rendered: the sum, the pass in work and the one before it. One pass is not held
+// whole.
 constexpr double kBytesAPixelOfPasses = 24 + 13 + 13;
 
 void check_memory(const render::Window& window, const render::PassGoal& goal) {
-    const double bytes = goal.passes > 1 ? std::max(kBytesAPixel, kBytesAPixelOfPasses) : kBytesAPixel;
-    const double needed = bytes * window.width() * window.height();
+    if (goal.passes == 1) return;
+    const double needed = kBytesAPixelOfPasses * window.width() * window.height();
     const double present =
         static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
     if (needed <= present) return;
     throw UsageError(
-        fmt::format("{}x{} pixels need {:.1f} GB of memory, this machine has {:.1f} GB; allowed: a smaller "
-                    "--size, or the frame in parts by --crop",
+        fmt::format("{}x{} pixels in passes need {:.1f} GB of memory, this machine has {:.1f} GB; allowed: one pass, a "
+                    "smaller --size, or the frame in parts by --crop",
                     window.width(), window.height(), needed / 1e9, present / 1e9));
 }
 
@@ -146,6 +146,29 @@ std::vector<fs::path> output_paths(const RenderRequest& request, const Job& job)
     return paths;
 }
 
+void choose_aovs(const RenderRequest& request, Job& job) {
+    const bool given = !request.aov.empty();
+    if (!given && !job.loaded.aovs) return;
+    job.aovs = parse_aovs(given ? request.aov : *job.loaded.aovs);
+    if (job.goal.passes > 1) {
+        throw UsageError("--aov: allowed with one pass; not with --passes, --target-rmse or --time-limit");
+    }
+    image::check_fonts();
+    job.write.exr_extra = aov_channels(job.aovs);
+}
+
+void check_aov_paths(const Job& job) {
+    for (const Aov aov : job.aovs) {
+        const fs::path path = aov_path(job, aov);
+        image::check_writable(path);
+        image::check_writable(partial_path(path));
+        if (std::ranges::any_of(job.outputs, [&](const fs::path& output) { return same_file(path, output); })) {
+            throw UsageError(
+                fmt::format("-o {}: allowed: another name, this is where --aov {} goes", path.string(), name_of(aov)));
+        }
+    }
+}
+
 void check_statistics(const Job& job) {
     if (job.statistics.empty()) return;
     image::check_replaceable(job.statistics);
@@ -158,6 +181,11 @@ void check_statistics(const Job& job) {
 }
 
 }  // namespace
+
+fs::path aov_path(const Job& job, Aov aov) {
+    fs::path path = job.outputs.front();
+    return path.replace_extension("." + name_of(aov) + ".png");
+}
 
 fs::path partial_path(fs::path path) {
     const std::string extension = path.extension().string();
@@ -175,13 +203,22 @@ Job prepare(const RenderRequest& request) {
     job.tracer = choose(request.tracer, job.loaded.tracer, "fast");
     parse_tracer(job.tracer);
     const std::string format = choose(request.format, job.loaded.exr_format, "half");
-    job.write = {.exposure = job.loaded.scene.film.exposure, .exr_format = parse_format(format)};
+    const bool is_tiled = request.tiled || job.loaded.is_tiled;
+    job.write = {.exposure = job.loaded.scene.film.exposure,
+                 .exr_format = parse_format(format),
+                 .exr_layout = is_tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic};
     job.goal = choose_goal(request, job.loaded);
+    choose_aovs(request, job);
     check_memory(job.window, job.goal);
     job.outputs = output_paths(request, job);
+    check_aov_paths(job);
     job.statistics = request.statistics;
     check_statistics(job);
     job.metadata = picture_metadata(job.loaded.scene, job.window, job.tracer, format);
+    if (is_tiled) job.metadata.set("strata:tiled", "asked for");
+    std::string aovs;
+    for (const Aov aov : job.aovs) aovs += (aovs.empty() ? "" : ",") + name_of(aov);
+    if (!aovs.empty()) job.metadata.set("strata:aov", aovs);
     return job;
 }
 

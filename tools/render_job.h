@@ -9,6 +9,7 @@
 #include "src/image/metadata.h"
 #include "src/render/film.h"
 #include "src/render/progressive.h"
+#include "tools/aov.h"
 #include "tools/scene_argument.h"
 
 namespace strata::tools {
@@ -18,8 +19,8 @@ struct RenderRequest {
     SceneArgument scene;
     std::vector<std::string> outputs;
     std::string crop, tracer, simd, format, statistics, threads = "0", tile = "32";
-    std::string passes, target_rmse, time_limit;
-    bool quiet = false;
+    std::string passes, target_rmse, time_limit, aov;
+    bool quiet = false, tiled = false;
 };
 
 // All that is known before the first ray.
@@ -27,6 +28,7 @@ struct Job {
     LoadedScene loaded;
     render::Window window;
     std::vector<std::filesystem::path> outputs;
+    std::vector<Aov> aovs;
     std::filesystem::path statistics;  // empty: none
     image::WriteOptions write;
     image::Metadata metadata;
@@ -38,6 +40,9 @@ struct Job {
 
 // Throws UsageError or SceneError for what cannot be asked for, ImageError for outputs that cannot be written.
 Job prepare(const RenderRequest& request);
+
+// NAME.steps.png, named like the first output: the picture of an AOV to look at.
+std::filesystem::path aov_path(const Job& job, Aov aov);
 
 // NAME.partial.EXT beside NAME.EXT.
 std::filesystem::path partial_path(std::filesystem::path path);

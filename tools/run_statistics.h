@@ -23,7 +23,7 @@ struct PassStatistics {
 
 struct RunStatistics {
     render::Counters counters;
-    double seconds = 0.0;  // tracing, shading, filtering; not set-up or output
+    double seconds = 0.0;  // tracing, shading, filtering, and pictures written meanwhile; not set-up
     double cpu_seconds = 0.0;
     int threads = 0;
     std::string simd_target;

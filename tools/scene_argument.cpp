@@ -61,6 +61,8 @@ LoadedScene from_picture(const std::filesystem::path& path) {
     loaded.crop = image::read_metadata(path, "strata:crop");
     loaded.tracer = image::read_metadata(path, "strata:tracer");
     loaded.exr_format = image::read_metadata(path, "strata:format");
+    loaded.aovs = image::read_metadata(path, "strata:aov");
+    loaded.is_tiled = image::read_metadata(path, "strata:tiled").has_value();
     loaded.simd_target = image::read_metadata(path, "strata:simd_target");
     loaded.passes = image::read_metadata(path, "strata:passes");
     return loaded;

@@ -20,7 +20,8 @@ struct LoadedScene {
     scene::Scene scene;
     std::string name;    // of output files: the file's or built-in scene's, without folder and extension
     std::string source;  // for messages
-    std::optional<std::string> crop, tracer, exr_format, simd_target, passes;  // as recorded in a picture
+    std::optional<std::string> crop, tracer, exr_format, simd_target, passes, aovs;  // as recorded in a picture
+    bool is_tiled = false;
 };
 
 class SceneArgument {

@@ -89,7 +89,7 @@ Canvas difference_scale(int width, double top, const std::string& label) {
         style.anchor = anchor;
         // A right anchor is the end of the text, which the last column still belongs to.
         draw_text(canvas, anchor == Anchor::right ? width : x, below,
-                  fmt::format("{}{:.3g}", part == 1 ? "≥ " : "", part * top), style);
+                  fmt::format("{}{:.4g}", part == 1 ? "≥ " : "", part * top), style);
     };
     mark(0, Anchor::left);
     for (const double part : {0.02, 0.1, 0.4}) mark(part, Anchor::centre);

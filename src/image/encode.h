@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "src/image/format.h"
@@ -12,18 +13,29 @@ namespace strata::image {
 
 enum class ExrFormat { half, floating };
 
+// automatic: tiles where the crop has kTiledFrom pixels or more on either side.
+enum class ExrLayout { automatic, scanlines, tiles };
+inline constexpr int kTiledFrom = 4096;
+
 struct WriteOptions {
     double exposure = 0.0;  // stops, finite; EXR ignores it and stays linear
     ExrFormat exr_format = ExrFormat::half;
+    ExrLayout exr_layout = ExrLayout::automatic;
+    std::vector<std::string>
+        exr_extra{};  // channels of 32 bits beside R, G and B, as "steps.Y", sorted; of streams alone
 };
 
-// EXR: linear, zip; TIFF: 16 bits, zip; PNG: 8 bits; JPEG: 8 bits, quality 95, no chroma subsampling. The last three
-// are multiplied by 2^exposure, clamped, passed through sRGB's transfer function and rounded to the nearest code. EXR
-// and TIFF keep the crop as data window and the frame as display window; PNG and JPEG hold the crop alone. Finite
-// radiance beyond the largest half (65504) becomes that. EXR and PNG carry each metadata entry under its name, TIFF and
-// JPEG all of them packed into the image description. Throws ImageError, which names `path`, for NaN or infinite
-// pixels, for metadata too long for the format (60,000 bytes in TIFF and JPEG) and for a picture that breaks its own
-// rules. Only the extension and the name of `path` are used.
+// Rows encoded at once: a multiple of the 16 that EXR's zip packs together and of the 64 of its tiles, and little
+// memory beside a whole picture.
+inline constexpr int kStripRows = 64;
+
+// EXR: linear, zip, in scanlines or tiles of 64x64; TIFF: 16 bits, zip; PNG: 8 bits; JPEG: 8 bits, quality 95, no
+// chroma subsampling. The last three are multiplied by 2^exposure, clamped, passed through sRGB's transfer function and
+// rounded to the nearest code. EXR and TIFF keep the crop as data window and the frame as display window; PNG and JPEG
+// hold the crop alone. Finite radiance beyond the largest half (65504) becomes that. EXR and PNG carry each metadata
+// entry under its name, TIFF and JPEG all of them packed into the image description. Throws ImageError, which names
+// `path`, for NaN or infinite pixels, for metadata too long for the format (60,000 bytes in TIFF and JPEG) and for a
+// picture that breaks its own rules. Only the extension and the name of `path` are used.
 std::vector<unsigned char> encode(const std::filesystem::path& path, const Picture& picture, const Metadata& metadata,
                                   const WriteOptions& options);
 

@@ -33,52 +33,6 @@ fs::path resolve_links(const fs::path& path) {
     return error ? path : target;
 }
 
-// A new file of its own beside `path`; removed by the destructor unless it was renamed.
-class TemporaryFile {
-  public:
-    explicit TemporaryFile(const fs::path& path) : target_(path) {
-        static std::atomic<unsigned> counter{0};
-        do {
-            // Short, so that it fits wherever `path` does; hidden, so that a glob for pictures does not meet it.
-            name_ = folder_of(path) / fmt::format(".strata-{}-{}", ::getpid(), counter++);
-            descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        } while (descriptor_ < 0 && (errno == EEXIST || errno == EINTR));
-        if (descriptor_ < 0) fail(target_, fmt::format("no new file in its folder: {}", system_reason(errno)));
-    }
-
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-    ~TemporaryFile() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-        if (!renamed_) ::unlink(name_.c_str());
-    }
-
-    void write(std::span<const unsigned char> bytes) {
-        while (!bytes.empty()) {
-            const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-            if (written < 0 && errno == EINTR) continue;
-            if (written < 0) fail(target_, system_reason(errno));
-            bytes = bytes.subspan(static_cast<std::size_t>(written));
-        }
-    }
-
-    void rename_to_target() {
-        const int closed = ::close(descriptor_);
-        descriptor_ = -1;
-        // Some file systems report a full disk only here.
-        if (closed != 0) fail(target_, system_reason(errno));
-        if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, system_reason(errno));
-        renamed_ = true;
-    }
-
-  private:
-    fs::path target_;
-    fs::path name_;
-    int descriptor_ = -1;
-    bool renamed_ = false;
-};
-
 void check_target(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
@@ -101,6 +55,40 @@ void check_folder(const fs::path& path) {
 
 }  // namespace
 
+OutputFile::OutputFile(const fs::path& target) : target_(resolve_links(target)) {
+    static std::atomic<unsigned> counter{0};
+    do {
+        // Short, so that it fits wherever the target does; hidden, so that a glob for pictures does not meet it.
+        hidden_ = folder_of(target_) / fmt::format(".strata-{}-{}", ::getpid(), counter++);
+        descriptor_ = ::open(hidden_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (descriptor_ < 0 && (errno == EEXIST || errno == EINTR));
+    if (descriptor_ < 0) fail(target_, fmt::format("no new file in its folder: {}", system_reason(errno)));
+}
+
+OutputFile::~OutputFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!is_in_place_) ::unlink(hidden_.c_str());
+}
+
+void OutputFile::write_at(std::int64_t offset, std::span<const unsigned char> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), offset);
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail(target_, system_reason(errno));
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+        offset += written;
+    }
+}
+
+void OutputFile::put_in_place() {
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    // Some file systems report a full disk only here.
+    if (closed != 0) fail(target_, system_reason(errno));
+    if (::rename(hidden_.c_str(), target_.c_str()) != 0) fail(target_, system_reason(errno));
+    is_in_place_ = true;
+}
+
 void check_writable(const fs::path& path) {
     format_of(path);
     check_replaceable(path);
@@ -110,13 +98,13 @@ void check_replaceable(const fs::path& path) {
     if (!path.has_filename()) fail(path, "it names no file");
     check_folder(path);
     check_target(path);
-    const TemporaryFile probe(resolve_links(path));
+    const OutputFile probe(path);
 }
 
 void replace_file(const fs::path& path, std::span<const unsigned char> bytes) {
-    TemporaryFile file(resolve_links(path));
-    file.write(bytes);
-    file.rename_to_target();
+    OutputFile file(path);
+    file.write_at(0, bytes);
+    file.put_in_place();
 }
 
 }  // namespace strata::image

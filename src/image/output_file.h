@@ -1,6 +1,7 @@
 // Files that appear whole or not at all.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 
@@ -13,6 +14,28 @@ void check_writable(const std::filesystem::path& path);
 
 // The same for a file of any kind, which replace_file() is to write.
 void check_replaceable(const std::filesystem::path& path);
+
+// A file in the making: a hidden one of its own in the folder of its target, which stays as it is until put_in_place().
+// Removed by the destructor unless it is in place. All throw ImageError with the system's reason.
+class OutputFile {
+  public:
+    // A symbolic link stays one; its target is what is replaced.
+    explicit OutputFile(const std::filesystem::path& target);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    void write_at(std::int64_t offset, std::span<const unsigned char> bytes);
+    void put_in_place();
+
+    const std::filesystem::path& hidden_path() const { return hidden_; }
+
+  private:
+    std::filesystem::path target_;
+    std::filesystem::path hidden_;
+    int descriptor_ = -1;
+    bool is_in_place_ = false;
+};
 
 // Writes `bytes` to a temporary file in the same folder and renames it to `path`. A symbolic link stays one; its target
 // is replaced. On any error (ImageError, with the system's reason) the temporary file is gone and an earlier file is

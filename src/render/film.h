@@ -20,7 +20,7 @@ struct Window {
 class Film {
   public:
     Film() = default;
-    explicit Film(const Window& window);
+    explicit Film(const Window& window, bool with_costs = false);
 
     const Window& window() const { return window_; }
 
@@ -38,6 +38,19 @@ class Film {
         finished_[index(x, y)] = 1;
     }
 
+    // Means over the samples taken for a pixel, each counting alike: steps, noise evaluations. Empty: not asked for.
+    const std::vector<glm::vec2>& costs() const { return costs_; }
+
+    // May be set before or after the pixel is finished.
+    void set_cost(int x, int y, const glm::vec2& cost) { costs_[index(x, y)] = cost; }
+
+    // Takes over what is finished of a part, whose window lies inside this film's.
+    void paste(const Film& part);
+
+    std::size_t bytes() const {
+        return pixels_.size() * (sizeof(glm::vec3) + sizeof(std::uint8_t)) + costs_.size() * sizeof(glm::vec2);
+    }
+
   private:
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width()) +
@@ -47,6 +60,7 @@ class Film {
     Window window_;
     std::vector<glm::vec3> pixels_;
     std::vector<std::uint8_t> finished_;
+    std::vector<glm::vec2> costs_;
 };
 
 }  // namespace strata::render

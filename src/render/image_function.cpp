@@ -1,5 +1,7 @@
 #include "src/render/image_function.h"
 
+#include <algorithm>
+
 namespace strata::render {
 
 PhaseCost& PhaseCost::operator+=(const PhaseCost& other) {
@@ -19,6 +21,12 @@ Counters& Counters::operator+=(const Counters& other) {
     steps += other.steps;
     for (std::size_t i = 0; i < kPhases; ++i) phases[i] += other.phases[i];
     return *this;
+}
+
+void ImageFunction::evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance,
+                                        std::span<SampleCost> costs, Counters& counters) const {
+    std::fill(costs.begin(), costs.end(), SampleCost{});
+    evaluate(samples, radiance, counters);
 }
 
 }  // namespace strata::render

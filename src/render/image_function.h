@@ -7,13 +7,15 @@
 #include <glm/glm.hpp>
 #include <span>
 
+#include "src/render/sample_cost.h"
+
 namespace strata::render {
 
-// Work done, exact and independent of threads and tiles; but for executed_lanes, which also counts SIMD lanes that idle
-// and so depends on how rays came to share packets.
+// Work done, exact and independent of threads. What beams do, that samples of a batch share, depends on the batches and
+// so on tiles and crop; as do executed_lanes, which count SIMD lanes that idle, too.
 // Where the work of a ray-cast surface is done.
-enum class Phase { beams, rays, normals, shadows, shading };
-inline constexpr std::size_t kPhases = 5;
+enum class Phase { beams, rays, normals, sun_beams, shadows, shading };
+inline constexpr std::size_t kPhases = 6;
 
 struct PhaseCost {
     double seconds = 0.0;  // of one thread's time; depends on the machine, unlike all else here
@@ -51,6 +53,10 @@ class ImageFunction {
     // Linear radiance of each sample. A sample's result depends on that sample alone, never on the rest of the batch.
     // Thread-safe. counters belong to the caller.
     virtual void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const = 0;
+
+    // The same radiance, and what each sample cost: nothing, unless a function traces.
+    virtual void evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance,
+                                     std::span<SampleCost> costs, Counters& counters) const;
 };
 
 }  // namespace strata::render

@@ -136,6 +136,7 @@ ProgressiveResult ProgressiveRender::run() {
     result_.end = *end;
     result_.render.cancelled = *end == PassesEnd::cancelled;
     average();
+    result_.render.finished_pixels = static_cast<std::int64_t>(result_.render.film.finished_count());
     result_.render.seconds = seconds();
     return std::move(result_);
 }

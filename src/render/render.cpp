@@ -1,10 +1,17 @@
 #include "src/render/render.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include "src/render/render_context.h"
 
 namespace strata::render {
+
+namespace {
+
+constexpr int kWholeFilmStrip = 64;
+
+}  // namespace
 
 Window cells_of(const Window& window, const Estimator& estimator) {
     const int reach = estimator.weights().reach();
@@ -13,18 +20,31 @@ Window cells_of(const Window& window, const Estimator& estimator) {
 
 RenderResult render(const ImageFunction& image, const Estimator& estimator, const Window& window,
                     const RenderOptions& options) {
+    Film film;
+    RenderResult result = render_strips(image, estimator, window, options, kWholeFilmStrip, [&](const Film& strip) {
+        if (film.pixels().empty()) film = Film(window, options.with_costs);
+        film.paste(strip);
+    });
+    result.film = std::move(film);
+    return result;
+}
+
+RenderResult render_strips(const ImageFunction& image, const Estimator& estimator, const Window& window,
+                           const RenderOptions& options, int strip_rows, StripSink sink) {
     if (window.width() <= 0 || window.height() <= 0) throw std::invalid_argument("the window to render is empty");
     if (options.tile < 1) throw std::invalid_argument("a tile's side is at least 1");
+    if (strip_rows < 1) throw std::invalid_argument("a strip has at least one row");
     const Window owners = estimator.shared() ? cells_of(window, estimator) : window;
     RenderContext context(image, estimator, options, std::int64_t{1} * owners.width() * owners.height());
+    const StripLayout layout{window, strip_rows};
     RenderResult result;
-    result.film = Film(window);
     if (estimator.shared()) {
-        render_shared(context, result.film);
+        render_shared(context, layout, std::move(sink), result);
     } else {
-        render_tiles(context, options.tile, result.film);
+        render_tiles(context, layout, std::move(sink), result);
     }
     context.finish(result);
+    result.cancelled = result.finished_pixels < std::int64_t{1} * window.width() * window.height();
     return result;
 }
 

@@ -1,20 +1,10 @@
 #include "src/render/render_context.h"
 
-#include <ctime>
-
 #include <algorithm>
 
+#include "src/render/cpu_clock.h"
+
 namespace strata::render {
-
-namespace {
-
-double thread_cpu_seconds() {
-    timespec time = {};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-}  // namespace
 
 RenderContext::RenderContext(const ImageFunction& image_function, const Estimator& pixel_estimator,
                              const RenderOptions& render_options, std::int64_t total_work)
@@ -36,13 +26,30 @@ void RenderContext::run(std::int64_t count, const std::function<void(Worker&, st
 
 bool RenderContext::evaluate(Worker& worker, std::span<glm::vec3> radiance) const {
     const std::size_t count = worker.samples.u.size();
+    if (options.with_costs) worker.costs.resize(count);
     for (std::size_t first = 0; first < count; first += kBatchSamples) {
         if (cancelled()) return false;
         const std::size_t size = std::min(kBatchSamples, count - first);
-        image.evaluate(worker.samples.batch(first, size), radiance.subspan(first, size), worker.counters);
+        const SampleBatch batch = worker.samples.batch(first, size);
+        if (options.with_costs) {
+            const std::span<SampleCost> costs = std::span(worker.costs).subspan(first, size);
+            image.evaluate_with_costs(batch, radiance.subspan(first, size), costs, worker.counters);
+        } else {
+            image.evaluate(batch, radiance.subspan(first, size), worker.counters);
+        }
         worker.counters.rays += size;
     }
     return true;
+}
+
+glm::vec2 RenderContext::mean_cost(const Worker& worker, std::size_t owner) const {
+    const std::size_t n = static_cast<std::size_t>(estimator.sample_count());
+    double steps = 0, evaluations = 0;
+    for (std::size_t i = owner * n; i < (owner + 1) * n; ++i) {
+        steps += worker.costs[i].steps;
+        evaluations += worker.costs[i].noise_evaluations;
+    }
+    return glm::vec2(glm::dvec2(steps, evaluations) / static_cast<double>(n));
 }
 
 std::size_t RenderContext::owners_a_batch() const {
@@ -56,7 +63,6 @@ void RenderContext::finish(RenderResult& result) const {
     }
     result.threads = seam_.threads();
     result.seconds = progress.seconds();
-    result.cancelled = !result.film.complete();
 }
 
 }  // namespace strata::render

@@ -19,6 +19,7 @@ struct alignas(64) Worker {
     SampleSet samples;
     std::vector<glm::ivec2> owners;  // pixels or cells of `samples`
     std::vector<glm::vec3> radiance;
+    std::vector<SampleCost> costs;  // empty unless asked for
     Counters counters;
     double cpu_seconds = 0;
 };
@@ -36,8 +37,13 @@ class RenderContext {
 
     bool cancelled() const { return options.cancel != nullptr && options.cancel->requested(); }
 
+    // Of the samples of worker.owners[owner], which were evaluated with costs.
+    glm::vec2 mean_cost(const Worker& worker, std::size_t owner) const;
+
     // As many owners as fill a batch, at least one.
     std::size_t owners_a_batch() const;
+
+    int threads() const { return seam_.threads(); }
 
     // Sums up what the workers did.
     void finish(RenderResult& result) const;
@@ -52,11 +58,11 @@ class RenderContext {
     std::vector<Worker> workers_;
 };
 
-// Estimators whose samples belong to a pixel: tiles, in any order.
-void render_tiles(RenderContext& context, int side, Film& film);
+// Estimators whose samples belong to a pixel: tiles, cut where strips are. Sets what `result` has of pixels.
+void render_tiles(RenderContext& context, const StripLayout& layout, StripSink sink, RenderResult& result);
 
 // Estimators whose samples belong to a screen cell and count in many pixels.
-void render_shared(RenderContext& context, Film& film);
+void render_shared(RenderContext& context, const StripLayout& layout, StripSink sink, RenderResult& result);
 
 // Cells whose samples can reach the window's pixels.
 Window cells_of(const Window& window, const Estimator& estimator);

@@ -3,6 +3,7 @@
 // additions whatever the runs and strips are.
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "src/render/render_accumulators.h"
 #include "src/render/render_context.h"
@@ -17,9 +18,11 @@ constexpr int kStripColumns = 64;
 
 class SharedRender {
   public:
-    SharedRender(RenderContext& context, Film& film);
+    SharedRender(RenderContext& context, const StripLayout& layout, StripSink sink);
 
     void render();
+
+    const StripFilm& film() const { return film_; }
 
   private:
     struct Run {
@@ -30,13 +33,16 @@ class SharedRender {
     CellSamples samples_of(std::int64_t index, const Run& run) const;
     int accumulator_rows() const;
     void evaluate(const Run& run);
+    void set_costs(const Worker& worker);
+    void give_away(Worker& worker, int strips_end);
     void evaluate_block(Worker& worker, std::int64_t first, std::int64_t last, const Run& run);
     void add_up(const Run& run);
     void add_to_strip(const Run& run, int x0, int x1);
+    void finish_rows(int rows_end, int x0, int x1);
     int finished_rows_end(const Run& run) const;
 
     RenderContext& context_;
-    Film& film_;
+    StripFilm film_;
     const Window& window_;
     Window cells_;
     int reach_;
@@ -45,7 +51,8 @@ class SharedRender {
     std::vector<float> fraction_u_, fraction_v_;  // of the run's samples
     std::vector<glm::vec3> radiance_;
     PixelAccumulators accumulators_;
-    int finished_end_;  // pixel rows above are in the film
+    int finished_end_;   // pixel rows above are in the film
+    int given_end_ = 0;  // strips above are given away
 };
 
 std::int64_t cells_in_a_run(const Window& cells, std::size_t samples_a_cell) {
@@ -55,10 +62,16 @@ std::int64_t cells_in_a_run(const Window& cells, std::size_t samples_a_cell) {
     return std::min({fitting, kRunRows * cells.width(), total});
 }
 
-SharedRender::SharedRender(RenderContext& context, Film& film)
+// Strips that hold rows of one run, finished or given away beside the next; with the rows that wait for others.
+int most_open(const StripLayout& layout, int reach) {
+    return 2 * ((static_cast<int>(kRunRows) + 2 * reach) / layout.rows + 2);
+}
+
+SharedRender::SharedRender(RenderContext& context, const StripLayout& layout, StripSink sink)
     : context_(context),
-      film_(film),
-      window_(film.window()),
+      film_(layout, std::vector<int>(static_cast<std::size_t>(layout.count()), 1),
+            most_open(layout, context.estimator.weights().reach()), context.options.with_costs, std::move(sink)),
+      window_(film_.layout().window),
       cells_(cells_of(window_, context.estimator)),
       reach_(context.estimator.weights().reach()),
       samples_a_cell_(static_cast<std::size_t>(context.estimator.sample_count())),
@@ -91,15 +104,24 @@ void SharedRender::render() {
     for (std::int64_t first = 0; first < total && !context_.cancelled(); first += cells_a_run_) {
         const Run run{first, std::min(first + cells_a_run_, total)};
         evaluate(run);
-        if (context_.cancelled()) return;
+        if (context_.cancelled()) break;
         add_up(run);
     }
+    context_.run(1, [&](Worker& worker, std::int64_t) { give_away(worker, film_.layout().count()); });
+}
+
+void SharedRender::give_away(Worker& worker, int strips_end) {
+    for (; given_end_ < strips_end; ++given_end_) worker.cpu_seconds -= film_.end_part(given_end_);
 }
 
 void SharedRender::evaluate(const Run& run) {
     const auto block = static_cast<std::int64_t>(context_.owners_a_batch());
-    context_.run((run.last - run.first + block - 1) / block, [&](Worker& worker, std::int64_t index) {
-        const std::int64_t first = run.first + index * block;
+    const StripLayout& layout = film_.layout();
+    const int whole_strips = finished_end_ == window_.y1 ? layout.count() : layout.strip_at(finished_end_);
+    // One thread gives away what the run before has finished.
+    context_.run(1 + (run.last - run.first + block - 1) / block, [&](Worker& worker, std::int64_t index) {
+        if (index == 0) return give_away(worker, whole_strips);
+        const std::int64_t first = run.first + (index - 1) * block;
         evaluate_block(worker, first, std::min(first + block, run.last), run);
     });
 }
@@ -113,7 +135,17 @@ void SharedRender::evaluate_block(Worker& worker, std::int64_t first, std::int64
     if (!context_.evaluate(worker, std::span(radiance_).subspan(offset, count))) return;
     std::copy_n(worker.samples.fraction_u.begin(), count, fraction_u_.begin() + static_cast<std::ptrdiff_t>(offset));
     std::copy_n(worker.samples.fraction_v.begin(), count, fraction_v_.begin() + static_cast<std::ptrdiff_t>(offset));
+    if (context_.options.with_costs) set_costs(worker);
     context_.progress.add(last - first, static_cast<std::int64_t>(count));
+}
+
+// A cell is a pixel's square: its samples are those taken for that pixel.
+void SharedRender::set_costs(const Worker& worker) {
+    for (std::size_t i = 0; i < worker.owners.size(); ++i) {
+        const auto& [x, y] = std::pair(worker.owners[i].x, worker.owners[i].y);
+        if (x < window_.x0 || x >= window_.x1 || y < window_.y0 || y >= window_.y1) continue;
+        film_.open(film_.layout().strip_at(y)).set_cost(x, y, context_.mean_cost(worker, i));
+    }
 }
 
 // Below the returned row, pixels still wait for cells after the run.
@@ -129,9 +161,18 @@ void SharedRender::add_up(const Run& run) {
         const int x0 = window_.x0 + static_cast<int>(strip) * kStripColumns;
         const int x1 = std::min(x0 + kStripColumns, window_.x1);
         add_to_strip(run, x0, x1);
-        if (!context_.cancelled()) accumulators_.finish(finished_end_, finished_end, x0, x1, film_);
+        if (!context_.cancelled()) finish_rows(finished_end, x0, x1);
     });
     finished_end_ = finished_end;
+}
+
+void SharedRender::finish_rows(int rows_end, int x0, int x1) {
+    for (int y = finished_end_; y < rows_end;) {
+        const int strip = film_.layout().strip_at(y);
+        const int end = std::min(rows_end, film_.layout().strip(strip).y1);
+        accumulators_.finish(y, end, x0, x1, film_.open(strip));
+        y = end;
+    }
 }
 
 void SharedRender::add_to_strip(const Run& run, int x0, int x1) {
@@ -149,6 +190,12 @@ void SharedRender::add_to_strip(const Run& run, int x0, int x1) {
 
 }  // namespace
 
-void render_shared(RenderContext& context, Film& film) { SharedRender(context, film).render(); }
+void render_shared(RenderContext& context, const StripLayout& layout, StripSink sink, RenderResult& result) {
+    SharedRender shared(context, layout, std::move(sink));
+    shared.render();
+    shared.film().check();
+    result.finished_pixels = shared.film().finished_pixels();
+    result.most_film_bytes = shared.film().most_bytes();
+}
 
 }  // namespace strata::render

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "src/render/render_context.h"
 #include "src/render/tiles.h"
@@ -33,7 +35,9 @@ bool render_pixels(RenderContext& context, Worker& worker, Film& film) {
     const std::span<const double> weight(worker.samples.weight);
     for (std::size_t p = 0; p < worker.owners.size(); ++p) {
         const std::span<const double> pixel_weight = weight.empty() ? weight : weight.subspan(p * n, n);
-        film.finish(worker.owners[p].x, worker.owners[p].y, weighted_mean(radiance.subspan(p * n, n), pixel_weight));
+        const auto [x, y] = std::pair(worker.owners[p].x, worker.owners[p].y);
+        film.finish(x, y, weighted_mean(radiance.subspan(p * n, n), pixel_weight));
+        if (context.options.with_costs) film.set_cost(x, y, context.mean_cost(worker, p));
     }
     const auto pixels = static_cast<std::int64_t>(worker.owners.size());
     context.progress.add(pixels, pixels * context.estimator.sample_count());
@@ -53,15 +57,106 @@ void render_tile(RenderContext& context, Worker& worker, const Window& tile, Fil
     if (!worker.owners.empty()) render_pixels(context, worker, film);
 }
 
+// Pixels of the tiles that are rendered ahead of their strip, 16 bytes of memory each.
+constexpr std::int64_t kPixelsAhead = 1 << 16;
+
+// Strips in work: enough that no thread waits while one strip is given away and a slow tile holds up the next.
+int most_open(int threads, std::int64_t tiles_a_strip) {
+    constexpr int kLeast = 3, kTilesAThread = 4;
+    const std::int64_t strips = 2 + kTilesAThread * threads / tiles_a_strip;
+    return static_cast<int>(std::max<std::int64_t>(kLeast, strips));
+}
+
+// The tiles of all strips, one strip's after the other's.
+class TiledStrips {
+  public:
+    TiledStrips(RenderContext& context, const StripLayout& layout, StripSink sink)
+        : context_(context),
+          tiles_a_strip_(tiles(layout, 0).count()),
+          total_(tiles_a_strip_ * (layout.count() - 1) + tiles(layout, layout.count() - 1).count()),
+          film_(layout, parts(layout), most_open(context.threads(), tiles_a_strip_), context.options.with_costs,
+                std::move(sink)) {
+        const Window first = tiles(layout, 0).tile(0);
+        most_ahead_ = std::clamp<std::int64_t>(kPixelsAhead / (std::int64_t{1} * first.width() * first.height()), 1,
+                                               kSpreadTiles);
+    }
+
+    void render();
+
+    const StripFilm& film() const { return film_; }
+
+  private:
+    TileGrid tiles(const StripLayout& layout, int strip) const {
+        return TileGrid(layout.strip(strip), context_.options.tile);
+    }
+    std::vector<int> parts(const StripLayout& layout) const;
+    void render_in_order(Worker& worker, int strip, const Window& tile);
+    void render_ahead(Worker& worker, int strip, const Window& tile);
+
+    RenderContext& context_;
+    std::int64_t tiles_a_strip_;  // but in the last strip, which may be lower
+    std::int64_t total_;
+    std::int64_t most_ahead_ = 1;
+    StripFilm film_;
+};
+
+std::vector<int> TiledStrips::parts(const StripLayout& layout) const {
+    std::vector<int> parts;
+    for (int strip = 0; strip < layout.count(); ++strip) {
+        parts.push_back(static_cast<int>(tiles(layout, strip).count()));
+    }
+    return parts;
+}
+
+// Ends a part of a strip whatever happens to it: others wait for it.
+class PartScope {
+  public:
+    PartScope(StripFilm& film, int strip, Worker& worker) : film_(film), strip_(strip), worker_(worker) {}
+    ~PartScope() { worker_.cpu_seconds -= film_.end_part(strip_); }
+    PartScope(const PartScope&) = delete;
+    PartScope& operator=(const PartScope&) = delete;
+
+  private:
+    StripFilm& film_;
+    int strip_;
+    Worker& worker_;
+};
+
+void TiledStrips::render_in_order(Worker& worker, int strip, const Window& tile) {
+    const PartScope part(film_, strip, worker);
+    if (!context_.cancelled()) render_tile(context_, worker, tile, film_.open(strip));
+}
+
+void TiledStrips::render_ahead(Worker& worker, int strip, const Window& tile) {
+    const PartScope part(film_, strip, worker);
+    if (context_.cancelled()) return;
+    Film film(tile, context_.options.with_costs);
+    render_tile(context_, worker, tile, film);
+    film_.set_aside(strip, std::move(film));
+}
+
+void TiledStrips::render() {
+    const std::int64_t ahead = spread_count(total_, most_ahead_);
+    context_.run(total_, [&](Worker& worker, std::int64_t position) {
+        const std::int64_t index = spread_first(position, total_, most_ahead_);
+        const int strip = static_cast<int>(index / tiles_a_strip_);
+        const Window tile = tiles(film_.layout(), strip).tile(index % tiles_a_strip_);
+        if (position < ahead) {
+            render_ahead(worker, strip, tile);
+        } else {
+            render_in_order(worker, strip, tile);
+        }
+    });
+}
+
 }  // namespace
 
-void render_tiles(RenderContext& context, int side, Film& film) {
-    const TileGrid tiles(film.window(), side);
-    context.run(tiles.count(), [&](Worker& worker, std::int64_t position) {
-        if (context.cancelled()) return;
-        const Window tile = tiles.tile(spread_first(position, tiles.count()));
-        render_tile(context, worker, tile, film);
-    });
+void render_tiles(RenderContext& context, const StripLayout& layout, StripSink sink, RenderResult& result) {
+    TiledStrips strips(context, layout, std::move(sink));
+    strips.render();
+    strips.film().check();
+    result.finished_pixels = strips.film().finished_pixels();
+    result.most_film_bytes = strips.film().most_bytes();
 }
 
 }  // namespace strata::render

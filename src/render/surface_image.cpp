@@ -58,6 +58,15 @@ struct SurfaceImage::Chunk {
         hint.clear();
     }
 
+    std::vector<SampleCost> sample_costs;
+    std::span<SampleCost> costs;  // empty: not asked for
+
+    void add_cost(std::size_t sample, const trace::Hit& hit) {
+        if (costs.empty()) return;
+        costs[sample].steps += hit.steps;
+        costs[sample].noise_evaluations += hit.noise_evaluations;
+    }
+
     // What is filled hit by hit would be copied over and over while it grows: 5 to 8 % of a render.
     void reserve(std::size_t count, bool drifts, bool has_shadows) {
         surface_hits.reserve(count);
@@ -142,20 +151,27 @@ void SurfaceImage::normals(std::span<const trace::Hit> hits, std::span<const glm
 }
 
 void SurfaceImage::evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const {
+    evaluate_with_costs(samples, radiance, {}, counters);
+}
+
+void SurfaceImage::evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance,
+                                       std::span<SampleCost> costs, Counters& counters) const {
+    std::fill(costs.begin(), costs.end(), SampleCost{});
     Chunk chunk;
     chunk.reserve(std::min(kChunk, samples.u.size()), field_.drifts(), scene::needs_shadow_rays(scene_.sun));
-    if (beams_) return evaluate_beamed(samples, radiance, chunk, counters);
+    if (beams_) return evaluate_beamed(samples, radiance, costs, chunk, counters);
     for (std::size_t begin = 0; begin < samples.u.size(); begin += kChunk) {
         const std::size_t count = std::min(kChunk, samples.u.size() - begin);
         const SampleBatch part{samples.u.subspan(begin, count), samples.v.subspan(begin, count),
                                samples.t.subspan(begin, count)};
+        if (!costs.empty()) chunk.costs = costs.subspan(begin, count);
         evaluate_chunk(part, radiance.subspan(begin, count), chunk, counters);
     }
 }
 
 // Cell by cell, with what the cells' beams found.
-void SurfaceImage::evaluate_beamed(const SampleBatch& samples, std::span<glm::vec3> radiance, Chunk& chunk,
-                                   Counters& counters) const {
+void SurfaceImage::evaluate_beamed(const SampleBatch& samples, std::span<glm::vec3> radiance,
+                                   std::span<SampleCost> costs, Chunk& chunk, Counters& counters) const {
     PhaseMeter meter(counters);
     trace::TraceCounters traced;
     beams_->trace(samples, chunk.beamed, traced);
@@ -175,8 +191,11 @@ void SurfaceImage::evaluate_beamed(const SampleBatch& samples, std::span<glm::ve
             chunk.hint.push_back(cell->hint);
         }
         chunk.radiance.resize(end - begin);
+        chunk.sample_costs.assign(costs.empty() ? 0 : end - begin, {});
+        chunk.costs = chunk.sample_costs;
         evaluate_chunk({chunk.u, chunk.v, chunk.t}, chunk.radiance, chunk, counters);
         for (std::size_t i = begin; i < end; ++i) radiance[order[i]] = chunk.radiance[i - begin];
+        for (std::size_t i = 0; i < chunk.costs.size(); ++i) costs[order[begin + i]] = chunk.costs[i];
     }
 }
 
@@ -224,6 +243,7 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
     for (std::size_t i = 0; i < count; ++i) {
         const trace::Ray& ray = chunk.rays[i];
         const trace::Hit& hit = chunk.hits[i];
+        chunk.add_cost(i, hit);
         if (hit.state == trace::HitState::miss) {
             radiance[i] = shaders::sky_radiance(scene_.sky, chunk.view[i]);
         } else if (hit.state == trace::HitState::unresolved) {
@@ -245,15 +265,17 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
     for (std::size_t i = 0; i < chunk.lit.size(); ++i) {
         Lit& lit = chunk.lit[i];
         lit.normal = glm::dvec3(chunk.normal[i]);
+        if (!chunk.costs.empty() && !chunk.surface_hits[i].on_bound) {
+            chunk.costs[lit.sample].noise_evaluations +=
+                static_cast<std::uint32_t>(field_.octaves().size()) - chunk.surface_hits[i].octaves;
+        }
         lit.height = is_planet ? field_.base(chunk.x[i]) : chunk.x[i].y;
         if (is_planet) lit.up = field_.base_gradient(chunk.x[i]);
     }
 
     if (scene::needs_shadow_rays(scene_.sun)) {
-        traced = {};
         meter.book(Phase::shading);
-        shadow(chunk, counters, traced);
-        meter.book(Phase::shadows, traced);
+        shadow(chunk, counters, meter);
     }
     for (const Lit& lit : chunk.lit) radiance[lit.sample] = shade_hit(lit);
     counters.hits += chunk.lit.size();
@@ -270,7 +292,7 @@ double SurfaceImage::shadow_spacing(const trace::Ray& ray, const Lit& lit) const
 }
 
 // A point of the convex bound that faces the sun sees it.
-void SurfaceImage::shadow(Chunk& chunk, Counters& counters, trace::TraceCounters& traced) const {
+void SurfaceImage::shadow(Chunk& chunk, Counters& counters, PhaseMeter& meter) const {
     chunk.shadow_rays.clear();
     chunk.shadow_owner.clear();
     chunk.shadow_spacing.clear();
@@ -282,15 +304,20 @@ void SurfaceImage::shadow(Chunk& chunk, Counters& counters, trace::TraceCounters
         chunk.shadow_owner.push_back(i);
         if (sun_beams_) chunk.shadow_spacing.push_back(shadow_spacing(chunk.rays[lit.sample], lit));
     }
+    trace::TraceCounters traced;
     if (sun_beams_) sun_beams_->shorten(chunk.shadow_rays, chunk.shadow_spacing, chunk.sunlit, traced);
+    meter.book(Phase::sun_beams, traced);
     chunk.shadow_hits.resize(chunk.shadow_rays.size());
+    traced = {};
     trace(chunk.shadow_rays, chunk.shadow_hits, traced);
     for (std::size_t i = 0; i < chunk.shadow_hits.size(); ++i) {
         const trace::HitState state = chunk.shadow_hits[i].state;
+        chunk.add_cost(chunk.lit[chunk.shadow_owner[i]].sample, chunk.shadow_hits[i]);
         if (state != trace::HitState::miss) chunk.lit[chunk.shadow_owner[i]].visibility = 0.0;
         if (state == trace::HitState::unresolved) ++counters.unresolved_rays;
     }
     counters.shadow_rays += chunk.shadow_rays.size();
+    meter.book(Phase::shadows, traced);
 }
 
 glm::vec3 SurfaceImage::shade_hit(const Lit& lit) const {

@@ -16,6 +16,8 @@
 
 namespace strata::render {
 
+class PhaseMeter;
+
 enum class Tracer { fast, reference };
 
 // Rays that no tracer could settle within its step limit are drawn in this colour, to be seen.
@@ -29,6 +31,8 @@ class SurfaceImage final : public ImageFunction {
     SurfaceImage& operator=(const SurfaceImage&) = delete;
 
     void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const override;
+    void evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance, std::span<SampleCost> costs,
+                             Counters& counters) const override;
 
     const trace::Field& field() const { return field_; }
     const trace::Placement& placement() const { return placement_; }
@@ -57,15 +61,15 @@ class SurfaceImage final : public ImageFunction {
     struct Chunk;
     struct Lit;
 
-    void evaluate_beamed(const SampleBatch& samples, std::span<glm::vec3> radiance, Chunk& chunk,
-                         Counters& counters) const;
+    void evaluate_beamed(const SampleBatch& samples, std::span<glm::vec3> radiance, std::span<SampleCost> costs,
+                         Chunk& chunk, Counters& counters) const;
     void evaluate_chunk(const SampleBatch& samples, std::span<glm::vec3> radiance, Chunk& chunk,
                         Counters& counters) const;
     void gradients(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
                    std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient,
                    trace::TraceCounters& counters) const;
     double shadow_spacing(const trace::Ray& ray, const Lit& lit) const;
-    void shadow(Chunk& chunk, Counters& counters, trace::TraceCounters& traced) const;
+    void shadow(Chunk& chunk, Counters& counters, PhaseMeter& meter) const;
     glm::vec3 shade_hit(const Lit& lit) const;
     trace::Ray camera_ray(const trace::Camera& camera, double u, double v) const;
 

@@ -24,8 +24,13 @@ Window TileGrid::tile(std::int64_t index) const {
             window_.y0 + static_cast<int>(std::min<std::int64_t>(y + side_, window_.height()))};
 }
 
-std::int64_t spread_first(std::int64_t position, std::int64_t count) {
-    const std::int64_t stride = divide_up(count, kSpreadTiles);
+std::int64_t spread_count(std::int64_t count, std::int64_t most) {
+    const std::int64_t stride = divide_up(count, most);
+    return stride <= 1 ? 0 : divide_up(count, stride);
+}
+
+std::int64_t spread_first(std::int64_t position, std::int64_t count, std::int64_t most) {
+    const std::int64_t stride = divide_up(count, most);
     if (stride <= 1) return position;
     const std::int64_t spread = divide_up(count, stride);
     if (position < spread) return position * stride;

@@ -31,7 +31,8 @@ check_wrong_values() {
     refuses 'an m out of range tells the range' 2 '*1 to 100*' render -m 0
     refuses 'an unknown estimator gets the nearest name' 2 "*did you mean 'stratified'*" render --estimator stratifed
     refuses 'a size needs two numbers' 2 '*WIDTHxHEIGHT*' render --size 16
-    refuses 'a size too large for memory is refused with the way out' 2 '*GB of memory*--crop*' render --size 65536x65536
+    refuses 'a size too large for memory is refused with the way out' 2 '*GB of memory*--crop*' render --size 65536x65536 \
+        --passes 2
     refuses 'an inverted crop is refused' 2 '*--crop 5,5,2,2:*x0 < x1 <= 16*' render --size 16x9 --crop 5,5,2,2
     refuses 'a crop beyond the frame is refused' 2 '*--crop 0,0,17,9:*' render --size 16x9 --crop 0,0,17,9
     refuses 'a crop with a negative corner is refused' 2 '*--crop -1,0,4,4:*' render --crop -1,0,4,4
@@ -118,8 +119,27 @@ check_rendering_again() {
     expect_same_file 'a TIFF rendered again from its metadata is the same PNG' c.png f.png
     "$strata" render a.exr --quiet --crop 0,0,16,9 -o g.exr
     expect_same_file 'a crop that is the whole frame is no crop' a.exr g.exr
+    "$strata" render hyperterrain "${tiny[@]}" --tiled -o tiled.exr -o tiled.png
+    "$strata" render tiled.exr --quiet -o tiled_again.exr
+    expect_same_file 'a tiled EXR rendered again is the same tiled EXR' tiled.exr tiled_again.exr
+    expect 'the tiled bit is set where it was asked for' "$(head -c 6 a.exr | tail -c 1 | od -An -tu1 | tr -d ' ') \
+$(head -c 6 tiled.exr | tail -c 1 | od -An -tu1 | tr -d ' ')" '0 2'
     refuses 'a recorded crop that a new frame does not hold says where it comes from' 2 '*c.exr: its --crop 3,2,20,11*' \
         render c.exr --size 8x8
+}
+
+check_aovs() {
+    refuses 'an unknown AOV gets the known ones' 2 '*--aov depth: allowed: steps, evals*' render --aov depth
+    refuses 'AOVs of several passes are refused' 2 '*--aov: allowed with one pass*' render --aov steps --passes 2
+    refuses 'a picture does not take the place of an AOV' 2 '*-o a.steps.png: allowed: another name*' \
+        render --aov steps -o a.exr -o a.steps.png
+    "$strata" render terrain "${tiny[@]}" -o plain.exr -o plain.png
+    "$strata" render terrain "${tiny[@]}" --aov evals,steps -o a.exr -o a.png
+    expect 'each AOV is a picture beside the first output' "$(echo a.*)" 'a.evals.png a.exr a.png a.steps.png'
+    expect 'channels are named in the EXR' "$(grep -aoc 'evals.Y' a.exr) $(grep -aoc 'steps.Y' plain.exr)" '1 0'
+    "$strata" render a.exr --quiet -o b.exr
+    expect_same_file 'an EXR with AOVs rendered again has them again' a.exr b.exr
+    expect_same_file 'as have the pictures to look at' a.steps.png b.steps.png
 }
 
 check_probes() {
@@ -219,6 +239,11 @@ check_failing_writes() {
     echo earlier >a.exr
     output=$(ulimit -f 12 && "$strata" render --size 64x36 -N 1 --format float --quiet -o a.exr -o a.png 2>&1)
     expect_match 'a full disk is told' "$?: $output" '1: strata: cannot write "a.exr": File too large'
+    output=$(ulimit -f 2 && "$strata" render hyperterrain --size 320x360 -N 8 --estimator shared --quiet -o full.exr --stats s.json 2>&1)
+    expect_match 'a render none of whose files can be written fails' "$?: $output" '1: *full.exr*'
+    expect 'a render none of whose files can be written stops early' \
+        "$(sed -n 's/ *"rays": \([0-9]*\),/\1/p' s.json | awk '{ print ($1 > 0 && $1 < 320 * 360 * 64 / 2) }')" 1
+    rm s.json
     expect 'a full disk leaves the earlier file, and no other' "$(cat a.exr) $(ls -A)" 'earlier a.exr'$'\n''a.png'
     run render a.png --quiet --size 16x9 -o b.png
     expect 'the other output is written nevertheless' "$status: $output" '0: '
@@ -242,4 +267,4 @@ check_failing_writes() {
 }
 
 run_groups check_unknown_words check_wrong_values check_scene_files check_outputs check_rendering_again \
-    check_probes check_samples check_signals check_failing_writes
+    check_aovs check_probes check_samples check_signals check_failing_writes

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "src/image/encode.h"
 #include "src/render/estimator.h"
 #include "src/render/make_image.h"
 #include "src/scene/needs.h"
@@ -20,16 +21,35 @@ render::Window owners_of(const render::Window& window, const render::Estimator& 
     return {window.x0 - reach, window.y0 - reach, window.x1 + reach, window.y1 + reach};
 }
 
-// The program with its libraries, of which this process has as many; the film and the picture beside it; samples and
-// rays on their way in each thread; the runs of shared samples; of several passes their sum and one more film.
+constexpr double kFilmBytes = 13;  // a pixel
+
+// A run of shared samples, and the sums of the pixels that it is seen by.
+double shared_memory(const render::Window& window, const render::Estimator& estimator) {
+    constexpr double kRunBytes = 8.4e6, kSampleBytes = 20, kMostRows = 48, kSumBytes = 32;
+    const double width = window.width();
+    const double rows = std::min(kMostRows, kRunBytes / (kSampleBytes * estimator.sample_count() * width));
+    const double sum_rows = std::min<double>(rows + 2 * estimator.weights().reach() + 3, window.height());
+    return std::min(kRunBytes, rows * width * kSampleBytes * estimator.sample_count()) + sum_rows * width * kSumBytes;
+}
+
+// Of one pass, only strips are held: in work, being encoded, and on their way through the encoder.
+double strip_memory(const render::Window& window) {
+    constexpr double kStripsInWork = 3, kEncoderBytes = 24;
+    const double strip_pixels = 1.0 * window.width() * std::min(image::kStripRows, window.height());
+    return (kStripsInWork * kFilmBytes + kEncoderBytes) * strip_pixels;
+}
+
+// The program with its libraries, of which this process has as many; samples and rays on their way in each thread;
+// the strips; of several passes their sum, the pass in work and the one before it.
 double expected_memory(const render::Window& window, const render::Estimator& estimator, int threads, int passes) {
-    constexpr double kFilmBytes = 13, kPictureBytes = 12, kSumBytes = 24;  // a pixel
-    constexpr double kWorkerBytes = 1.5e6, kSharedBytes = 8.4e6;
+    constexpr double kSumBytes = 24;  // a pixel
+    constexpr double kWorkerBytes = 1.5e6;
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     const double pixels = 1.0 * window.width() * window.height();
-    return 1024.0 * static_cast<double>(usage.ru_maxrss) + (kFilmBytes + kPictureBytes) * pixels +
-           (passes > 1 ? kSumBytes * pixels : 0.0) + kWorkerBytes * threads + (estimator.shared() ? kSharedBytes : 0.0);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss) + kWorkerBytes * threads + strip_memory(window) +
+           (estimator.shared() ? shared_memory(window, estimator) : 0.0) +
+           (passes > 1 ? (kSumBytes + 2 * kFilmBytes) * pixels : 0.0);
 }
 
 // Counts that are known to be zero.

@@ -1,0 +1,253 @@
+#include "src/image/encoder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "src/image/image_error.h"
+#include "src/image/library.h"
+#include "src/image/srgb.h"
+
+namespace strata::image {
+namespace {
+
+constexpr float kMaxHalf = 65504.0f;
+
+// A TIFF description is read back up to 65,536 bytes, a JPEG segment holds 65,533 with its own header inside.
+constexpr std::size_t kMaxDescription = 60'000;
+
+constexpr int kTileSide = 64;
+static_assert(kStripRows % kTileSide == 0 && kStripRows % 16 == 0, "a strip holds whole tiles, and whole zip blocks");
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
+    throw ImageError(fmt::format("cannot write \"{}\": {}", path.string(), reason));
+}
+
+void check_shape(const std::filesystem::path& path, const PictureShape& p) {
+    const bool inside =
+        p.x0 >= 0 && p.y0 >= 0 && p.x0 < p.x1 && p.y0 < p.y1 && p.x1 <= p.frame_width && p.y1 <= p.frame_height;
+    if (!inside)
+        fail(path, fmt::format("the crop {},{},{},{} is empty or outside the {}x{} frame", p.x0, p.y0, p.x1, p.y1,
+                               p.frame_width, p.frame_height));
+    check_size(path, p.width(), p.height());
+}
+
+// The nearest code of [0, max(Code)] after exposure and sRGB.
+template <class Code>
+std::vector<Code> quantise(std::span<const float> linear, double exposure) {
+    constexpr double kTop = std::numeric_limits<Code>::max();
+    // Beyond these limits every code is already 0 or the largest; within them no product is 0 * inf.
+    const double scale = std::exp2(std::clamp(exposure, -1000.0, 1000.0));
+    std::vector<Code> codes;
+    codes.reserve(linear.size());
+    for (const float value : linear) codes.push_back(static_cast<Code>(std::lround(encode_srgb(value * scale) * kTop)));
+    return codes;
+}
+
+std::vector<float> clamp_to_half(std::span<const float> linear) {
+    std::vector<float> clamped(linear.begin(), linear.end());
+    for (float& value : clamped) value = std::clamp(value, -kMaxHalf, kMaxHalf);
+    return clamped;
+}
+
+// The nearest code of [0, max(Code)] to values that are codes of [0,1].
+template <class Code>
+std::vector<Code> round_codes(std::span<const float> values) {
+    constexpr double kTop = std::numeric_limits<Code>::max();
+    std::vector<Code> codes;
+    codes.reserve(values.size());
+    for (const float v : values) codes.push_back(static_cast<Code>(std::lround(std::clamp<double>(v, 0, 1) * kTop)));
+    return codes;
+}
+
+OIIO::TypeDesc pixel_type(Format format, ExrFormat exr_format) {
+    if (format == Format::exr) return exr_format == ExrFormat::half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
+    return format == Format::tiff ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
+}
+
+void set_windows(OIIO::ImageSpec& spec, const PictureShape& shape) {
+    spec.x = shape.x0;
+    spec.y = shape.y0;
+    spec.full_width = shape.frame_width;
+    spec.full_height = shape.frame_height;
+}
+
+void set_metadata(OIIO::ImageSpec& spec, const std::filesystem::path& path, Format format, const Metadata& metadata) {
+    if (format == Format::exr || format == Format::png) {
+        for (const auto& [name, value] : metadata.entries()) spec.attribute(name, value);
+        return;
+    }
+    const std::string description = pack(metadata);
+    if (description.size() > kMaxDescription)
+        fail(path, fmt::format("{} bytes of metadata do not fit, at most {} do; .exr and .png hold more",
+                               description.size(), kMaxDescription));
+    if (!description.empty()) spec.attribute("ImageDescription", description);
+}
+
+bool is_tiled(const PictureShape& shape, ExrLayout layout) {
+    if (layout != ExrLayout::automatic) return layout == ExrLayout::tiles;
+    return std::max(shape.width(), shape.height()) >= kTiledFrom;
+}
+
+void add_channels(OIIO::ImageSpec& spec, const std::vector<std::string>& names) {
+    spec.channelformats.assign(3, spec.format);
+    for (const std::string& name : names) {
+        ++spec.nchannels;
+        spec.channelnames.push_back(name);
+        spec.channelformats.push_back(OIIO::TypeDesc::FLOAT);
+    }
+}
+
+OIIO::ImageSpec make_spec(const std::filesystem::path& path, Format format, const PictureShape& shape,
+                          const Metadata& metadata, const WriteOptions& options) {
+    OIIO::ImageSpec spec(shape.width(), shape.height(), 3, pixel_type(format, options.exr_format));
+    const bool linear = format == Format::exr;
+    // An EXR gives them back sorted; rows are copied as they come.
+    if (!std::ranges::is_sorted(options.exr_extra)) fail(path, "channels that are not sorted");
+    if (linear && !options.exr_extra.empty()) add_channels(spec, options.exr_extra);
+    const bool windows = linear || format == Format::tiff;
+    if (windows) set_windows(spec, shape);
+    if (windows) spec.attribute("compression", "zip");
+    if (linear && is_tiled(shape, options.exr_layout)) spec.tile_width = spec.tile_height = kTileSide;
+    if (format == Format::jpeg) {
+        spec.attribute("compression", "jpeg:95");
+        spec.attribute("jpeg:subsampling", "4:4:4");
+    }
+    // In a TIFF this would become an Exif directory, which OpenImageIO 2.4 writes over the picture's own.
+    if (format != Format::tiff) spec.attribute("oiio:ColorSpace", linear ? "Linear" : "sRGB");
+    // OpenImageIO dates EXR and TIFF files unless there is a DateTime; one that is no text is not written.
+    if (windows) spec.attribute("DateTime", 0);
+    set_metadata(spec, path, format, metadata);
+    return spec;
+}
+
+}  // namespace
+
+Encoder::Encoder(const std::filesystem::path& path, const PictureShape& shape, const Metadata& metadata,
+                 const WriteOptions& options, OIIO::Filesystem::IOProxy& bytes)
+    : path_(path), format_(format_of(path)), shape_(shape), options_(options) {
+    check_shape(path, shape);
+    if (!std::isfinite(options.exposure)) fail(path, fmt::format("an exposure of {} stops", options.exposure));
+    configure_library();
+    const OIIO::ImageSpec spec = make_spec(path, format_, shape, metadata, options);
+    output_ = OIIO::ImageOutput::create(name_of(format_));
+    if (!output_) fail(path, OIIO::geterror());
+    if (!output_->set_ioproxy(&bytes)) fail(path, "OpenImageIO cannot encode this format here");
+    if (!output_->open(name_of(format_), spec)) fail(path, output_->geterror());
+}
+
+int Encoder::rows_of(std::size_t values) const {
+    const auto row = 3 * static_cast<std::size_t>(shape_.width());
+    const int rows = static_cast<int>(values / row);
+    if (values % row != 0 || rows != std::min(kStripRows, rows_left()))
+        fail(path_, fmt::format("{} values are no strip of {} rows", values, std::min(kStripRows, rows_left())));
+    return rows;
+}
+
+void Encoder::count_not_finite(std::span<const float> rgb) {
+    const auto width = static_cast<std::size_t>(shape_.width());
+    for (std::size_t i = 0; i < rgb.size(); i += 3) {
+        if (std::isfinite(rgb[i]) && std::isfinite(rgb[i + 1]) && std::isfinite(rgb[i + 2])) continue;
+        if (not_finite_++ > 0) continue;
+        first_not_finite_ = fmt::format("({},{}) = ({}, {}, {})", static_cast<std::size_t>(shape_.x0) + i / 3 % width,
+                                        static_cast<std::size_t>(shape_.y0 + next_row_) + i / 3 / width, rgb[i],
+                                        rgb[i + 1], rgb[i + 2]);
+    }
+}
+
+void Encoder::write(OIIO::TypeDesc type, const void* values, int rows) {
+    const OIIO::ImageSpec& spec = output_->spec();
+    const int y = spec.y + next_row_;
+    next_row_ += rows;
+    const bool written = spec.tile_width > 0
+                             ? output_->write_tiles(spec.x, spec.x + spec.width, y, y + rows, 0, 1, type, values)
+                             : output_->write_scanlines(y, y + rows, 0, type, values);
+    if (!written) fail(path_, output_->geterror());
+}
+
+void Encoder::write_linear(std::span<const float> rgb, std::span<const float> extra) {
+    const int rows = rows_of(rgb.size());
+    count_not_finite(rgb);
+    if (not_finite_ > 0) {
+        // The file will not be kept, but must become whole; NaN has no code.
+        const std::vector<float> black(rgb.size() / 3 * channels(), 0.0f);
+        return write(OIIO::TypeDesc::FLOAT, black.data(), rows);
+    }
+    switch (format_) {
+        case Format::exr:
+            return write_exr(rgb, extra, rows);
+        case Format::tiff:
+            return write(OIIO::TypeDesc::UINT16, quantise<std::uint16_t>(rgb, options_.exposure).data(), rows);
+        case Format::png:
+        case Format::jpeg:
+            break;
+    }
+    write(OIIO::TypeDesc::UINT8, quantise<std::uint8_t>(rgb, options_.exposure).data(), rows);
+}
+
+void Encoder::write_exr(std::span<const float> rgb, std::span<const float> extra, int rows) {
+    std::vector<float> clamped;
+    if (options_.exr_format == ExrFormat::half) rgb = clamped = clamp_to_half(rgb);
+    const std::size_t extra_channels = channels() - 3;
+    if (extra_channels == 0) return write(OIIO::TypeDesc::FLOAT, rgb.data(), rows);
+    if (extra.size() != rgb.size() / 3 * extra_channels)
+        fail(path_, fmt::format("{} values do not make {} channels beside {} pixels", extra.size(), extra_channels,
+                                rgb.size() / 3));
+    std::vector<float> all;
+    all.reserve(rgb.size() + extra.size());
+    for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
+        const auto colour = rgb.subspan(3 * i, 3), beside = extra.subspan(extra_channels * i, extra_channels);
+        all.insert(all.end(), colour.begin(), colour.end());
+        all.insert(all.end(), beside.begin(), beside.end());
+    }
+    write(OIIO::TypeDesc::FLOAT, all.data(), rows);
+}
+
+void Encoder::write_codes(std::span<const float> rgb) {
+    const int rows = rows_of(rgb.size());
+    count_not_finite(rgb);
+    if (not_finite_ > 0) return write_linear(rgb);
+    if (format_ == Format::tiff) return write(OIIO::TypeDesc::UINT16, round_codes<std::uint16_t>(rgb).data(), rows);
+    write(OIIO::TypeDesc::UINT8, round_codes<std::uint8_t>(rgb).data(), rows);
+}
+
+void Encoder::copy(OIIO::ImageInput& written) {
+    const OIIO::ImageSpec& from = written.spec();
+    // Every half is a float.
+    const OIIO::TypeDesc type =
+        format_ == Format::exr ? OIIO::TypeDesc::FLOAT : pixel_type(format_, options_.exr_format);
+    const int chend = static_cast<int>(channels());
+    std::vector<unsigned char> strip;
+    while (rows_left() > 0) {
+        const int rows = std::min(kStripRows, rows_left());
+        const int y = from.y + next_row_;
+        strip.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(from.width) * channels() * type.size());
+        const bool read =
+            from.tile_width > 0
+                ? written.read_tiles(0, 0, from.x, from.x + from.width, y, y + rows, 0, 1, 0, chend, type, strip.data())
+                : written.read_scanlines(0, 0, y, y + rows, 0, 0, chend, type, strip.data());
+        if (!read) fail(path_, written.geterror());
+        write(type, strip.data(), rows);
+    }
+}
+
+void Encoder::write_rows_left() {
+    const auto row = channels() * static_cast<std::size_t>(shape_.width());
+    const std::vector<float> black(row * static_cast<std::size_t>(std::min(kStripRows, rows_left())), 0.0f);
+    while (rows_left() > 0) {
+        const int rows = std::min(kStripRows, rows_left());
+        write(OIIO::TypeDesc::FLOAT, black.data(), rows);
+    }
+}
+
+void Encoder::finish() {
+    if (!output_->close()) fail(path_, output_->geterror());
+    if (not_finite_ == 0) return;
+    fail(path_, fmt::format("{} pixel{} not finite, first {}", not_finite_, not_finite_ == 1 ? " is" : "s are",
+                            first_not_finite_));
+}
+
+}  // namespace strata::image

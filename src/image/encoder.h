@@ -1,0 +1,60 @@
+// Pictures into the bytes of a file, strip by strip. Private to src/image.
+#pragma once
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "src/image/encode.h"
+#include "src/image/format.h"
+
+namespace strata::image {
+
+// Rows are written in order from the top, kStripRows at a time, the last ones fewer. Whatever the pixels hold, all rows
+// must be written and finish() called: libjpeg ends the process when an encoder is abandoned.
+class Encoder {
+  public:
+    // Throws ImageError for all that is known to be wrong without the pixels. `bytes` outlives the encoder.
+    Encoder(const std::filesystem::path& path, const PictureShape& shape, const Metadata& metadata,
+            const WriteOptions& options, OIIO::Filesystem::IOProxy& bytes);
+
+    int rows_left() const { return shape_.height() - next_row_; }
+
+    // Linear radiance; where it is not finite finish() will throw.
+    void write_linear(std::span<const float> rgb, std::span<const float> extra = {});
+
+    // sRGB codes in [0,1].
+    void write_codes(std::span<const float> rgb);
+
+    // The rows of a picture that an encoder for the same path, shape and options has written, as they are.
+    void copy(OIIO::ImageInput& written);
+
+    // Black ones.
+    void write_rows_left();
+
+    // Throws ImageError that names the first pixel that is not finite, if any is.
+    void finish();
+
+  private:
+    void write(OIIO::TypeDesc type, const void* values, int rows);
+    int rows_of(std::size_t values) const;
+    std::size_t channels() const { return static_cast<std::size_t>(output_->spec().nchannels); }
+    void write_exr(std::span<const float> rgb, std::span<const float> extra, int rows);
+    void count_not_finite(std::span<const float> rgb);
+
+    std::filesystem::path path_;
+    Format format_;
+    PictureShape shape_;
+    WriteOptions options_;
+    std::unique_ptr<OIIO::ImageOutput> output_;
+    int next_row_ = 0;  // from the crop's top
+    std::size_t not_finite_ = 0;
+    std::string first_not_finite_;
+};
+
+}  // namespace strata::image

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+
+namespace strata::render {
+
+// What one sample took to evaluate: its ray, its normal and its shadow ray. Beams, which many samples share, are in
+// none: of a picture's samples these sum up to Counters::steps and noise_evaluations less those of the beams' phases.
+struct SampleCost {
+    std::uint32_t steps = 0;
+    std::uint32_t noise_evaluations = 0;
+};
+
+}  // namespace strata::render

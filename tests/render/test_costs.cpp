@@ -1,0 +1,114 @@
+// What pixels cost: accounts that add up to the counters, and cost nothing when they are not asked for.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "src/render/render.h"
+#include "src/render/surface_image.h"
+
+using namespace strata;
+using namespace strata::render;
+using scene::EstimatorKind;
+using scene::SurfaceKind;
+
+namespace {
+
+constexpr Window kFrame{0, 0, 48, 70};
+
+scene::Scene small_scene(SurfaceKind kind, EstimatorKind estimator) {
+    scene::Scene scene;
+    scene.film = {.width = kFrame.x1, .height = kFrame.y1};
+    scene.sampling.N = 2;
+    scene.sampling.estimator = estimator;
+    scene.surface.kind = kind;
+    scene.surface.octaves = 4;
+    scene.surface.bound_size = glm::dvec3(1.5);
+    scene.surface.radius = 2.0;
+    scene.camera.far = 60.0;
+    if (kind == SurfaceKind::planet || kind == SurfaceKind::isosurface) {
+        scene.camera.position = {0.5, 1.0, -6.0};
+        scene.camera.look_at = glm::dvec3(0.0);
+    }
+    return scene;
+}
+
+RenderResult render_scene(const scene::Scene& scene, const Window& window, int threads, int tile, bool with_costs,
+                          Tracer tracer = Tracer::fast) {
+    RenderOptions options;
+    options.threads = threads;
+    options.tile = tile;
+    options.with_costs = with_costs;
+    return render::render(SurfaceImage(scene, tracer), Estimator(estimator_settings(scene)), window, options);
+}
+
+glm::dvec2 sum(const std::vector<glm::vec2>& costs) {
+    glm::dvec2 total(0.0);
+    for (const glm::vec2& cost : costs) total += glm::dvec2(cost);
+    return total;
+}
+
+// Steps and noise evaluations of the samples' own: all but those of beams.
+glm::dvec2 own_work(const Counters& counters) {
+    const PhaseCost& beams = counters.phases[static_cast<std::size_t>(Phase::beams)];
+    const PhaseCost& sun_beams = counters.phases[static_cast<std::size_t>(Phase::sun_beams)];
+    return {static_cast<double>(counters.steps - beams.steps - sun_beams.steps),
+            static_cast<double>(counters.noise_evaluations - beams.noise_evaluations - sun_beams.noise_evaluations)};
+}
+
+constexpr SurfaceKind kSurfaces[] = {SurfaceKind::terrain, SurfaceKind::hyperterrain, SurfaceKind::planet,
+                                     SurfaceKind::isosurface};
+
+}  // namespace
+
+TEST_CASE("the costs of all pixels are all steps and evaluations of rays, normals and shadows that were counted") {
+    for (const SurfaceKind kind : kSurfaces) {
+        for (const Tracer tracer : {Tracer::fast, Tracer::reference}) {
+            const RenderResult result =
+                render_scene(small_scene(kind, EstimatorKind::stratified), kFrame, 2, 16, true, tracer);
+            REQUIRE(result.counters.shadow_rays > 0);
+            const glm::dvec2 total = 4.0 * sum(result.film.costs());
+            // Four samples a pixel: means are exact in float.
+            CHECK(total == own_work(result.counters));
+        }
+    }
+}
+
+TEST_CASE("costs of shared samples are those of a pixel's own cell, whatever the order of the filter") {
+    for (const SurfaceKind kind : kSurfaces) {
+        scene::Scene scene = small_scene(kind, EstimatorKind::shared);
+        scene.sampling.m = 1;  // no sample reaches another pixel: no cells beyond the frame
+        const RenderResult own = render_scene(scene, kFrame, 1, 32, true);
+        CHECK(4.0 * sum(own.film.costs()) == own_work(own.counters));
+        for (const int m : {4, 9, 100}) {
+            scene.sampling.m = m;
+            const RenderResult shared = render_scene(scene, kFrame, 3, 32, true);
+            CHECK(shared.film.costs() == own.film.costs());
+            CHECK(shared.counters.steps >= own.counters.steps);
+        }
+    }
+}
+
+TEST_CASE("costs do not depend on threads, tiles and crop, and change no pixel") {
+    for (const EstimatorKind estimator :
+         {EstimatorKind::none, EstimatorKind::stratified, EstimatorKind::shared_sobol}) {
+        const scene::Scene scene = small_scene(SurfaceKind::hyperterrain, estimator);
+        const RenderResult whole = render_scene(scene, kFrame, 1, 32, true);
+        const RenderResult plain = render_scene(scene, kFrame, 1, 32, false);
+        CHECK(plain.film.costs().empty());
+        CHECK(plain.film.pixels() == whole.film.pixels());
+        CHECK(plain.counters.noise_evaluations == whole.counters.noise_evaluations);
+        CHECK(render_scene(scene, kFrame, 4, 7, true).film.costs() == whole.film.costs());
+        const Window crop{5, 9, 31, 66};
+        const RenderResult part = render_scene(scene, crop, 2, 16, true);
+        int wrong = 0;
+        for (int y = crop.y0; y < crop.y1; ++y) {
+            for (int x = crop.x0; x < crop.x1; ++x) {
+                const auto in_part = static_cast<std::size_t>((y - crop.y0) * crop.width() + x - crop.x0);
+                const auto in_whole = static_cast<std::size_t>(y * kFrame.width() + x);
+                wrong += part.film.costs()[in_part] == whole.film.costs()[in_whole] ? 0 : 1;
+            }
+        }
+        CHECK(wrong == 0);
+    }
+}

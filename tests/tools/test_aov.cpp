@@ -1,0 +1,80 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tools/aov.h"
+#include "tools/errors.h"
+
+using namespace strata;
+using namespace strata::tools;
+
+namespace {
+
+// Strips of a picture whose costs are (x, 2 y).
+void add_strips(CostPicture& picture, const render::Window& window, int rows) {
+    for (int y0 = window.y0; y0 < window.y1; y0 += rows) {
+        render::Film strip({window.x0, y0, window.x1, std::min(y0 + rows, window.y1)}, true);
+        for (int y = y0; y < strip.window().y1; ++y)
+            for (int x = window.x0; x < window.x1; ++x)
+                strip.set_cost(x, y, {static_cast<float>(x), 2.0f * static_cast<float>(y)});
+        picture.add(strip);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("names of AOVs are taken in any order, make each channel once, and no other word is taken") {
+    CHECK(parse_aovs("steps") == std::vector{Aov::steps});
+    CHECK(parse_aovs("steps,evals") == std::vector{Aov::evals, Aov::steps});
+    CHECK(parse_aovs("evals,steps,evals") == std::vector{Aov::evals, Aov::steps});
+    CHECK(aov_channels(parse_aovs("steps,evals")) == std::vector<std::string>{"evals.Y", "steps.Y"});
+    for (const char* text : {"", "step", "steps,", ",evals", "steps evals", "depth"}) {
+        CHECK_THROWS_AS(parse_aovs(text), UsageError);
+    }
+}
+
+TEST_CASE("values of a strip are those of its pixels in the order of the channels") {
+    render::Film strip({0, 0, 2, 1}, true);
+    strip.set_cost(0, 0, {1, 2});
+    strip.set_cost(1, 0, {3, 4});
+    CHECK(aov_values({Aov::steps}, strip) == std::vector<float>{1, 3});
+    CHECK(aov_values({Aov::evals, Aov::steps}, strip) == std::vector<float>{2, 1, 4, 3});
+    CHECK(aov_values({}, strip).empty());
+}
+
+TEST_CASE("the cost picture of a large window is small, and the same whatever strips it came in") {
+    const render::Window window{3, 5, 3 + 2 * kLongestCostSide + 1, 5 + 40};
+    image::Canvas first;
+    for (const int rows : {64, 16, 7}) {
+        CostPicture picture(Aov::steps, window);
+        add_strips(picture, window, rows);
+        const image::Canvas canvas = picture.draw("wide");
+        CHECK(canvas.width < kLongestCostSide + 100);
+        if (first.rgb.empty()) first = canvas;
+        CHECK(canvas.rgb == first.rgb);
+    }
+    CostPicture other(Aov::evals, window);
+    add_strips(other, window, 64);
+    CHECK(other.draw("wide").rgb != first.rgb);
+}
+
+TEST_CASE("false colour grows brighter with the cost, from black to the scale's top") {
+    const render::Window window{0, 0, 101, 8};
+    CostPicture picture(Aov::steps, window);
+    add_strips(picture, window, 64);
+    const image::Canvas canvas = picture.draw("");
+    // The picture's first row: found by its black left end and pale right end.
+    int rows = 0;
+    for (int y = 0; y < canvas.height; ++y) {
+        for (int x0 = 0; x0 + 101 <= canvas.width; ++x0) {
+            const auto luminance = [&](int x) {
+                const float* rgb = &canvas.rgb[3 * static_cast<std::size_t>(y * canvas.width + x0 + x)];
+                return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+            };
+            bool grows = luminance(0) < 0.01f && luminance(100) > 0.9f && luminance(25) > 0.2f;
+            for (int x = 1; x < 101 && grows; ++x) grows = luminance(x) >= luminance(x - 1) - 0.004f;
+            rows += grows ? 1 : 0;
+        }
+    }
+    CHECK(rows >= 8);
+}

@@ -1,0 +1,56 @@
+// The picture files of a render, all written at once: strip by strip as they come.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "src/image/metadata.h"
+#include "src/image/picture_stream.h"
+#include "src/render/film.h"
+#include "tools/render_job.h"
+
+namespace strata::tools {
+
+// A file that cannot be written is told on standard error and given up; the others go on.
+class PictureOutputs {
+  public:
+    // Begins the files of the job, which stays where it is,, hidden until they are whole. Throws ImageError when one
+    // cannot be begun.
+    PictureOutputs(const Job& job, const image::Metadata& metadata);
+
+    // The next image::kStripRows rows, or those that are left.
+    void write(const render::Film& strip);
+
+    // All rows of a film of the job's window.
+    void write_whole(const render::Film& film);
+
+    // Whether there is still a file to be written.
+    bool any() const;
+
+    // Puts the files in place, and the pictures of AOVs. False if one of them, now or earlier, could not be written.
+    bool finish();
+
+    // As NAME.partial.EXT, with other metadata.
+    bool finish_partial(const image::Metadata& metadata);
+
+  private:
+    struct Output {
+        std::filesystem::path path;
+        std::optional<image::PictureStream> stream;  // empty: given up
+    };
+
+    template <class Action>
+    void for_each(const Action& action);
+    void write_rows(std::span<const glm::vec3> pixels, std::span<const float> extra);
+    bool write_costs(bool is_partial, const image::Metadata& metadata);
+    bool all() const;
+    void tell_written(const std::filesystem::path& path) const;
+
+    const Job& job_;
+    std::vector<CostPicture> costs_;
+    std::vector<Output> outputs_;
+};
+
+}  // namespace strata::tools
