@@ -15,5 +15,6 @@ void add_animate_command(CLI::App& program, int& exit_code);
 void add_figures_command(CLI::App& program, int& exit_code);
 void add_stability_command(CLI::App& program, int& exit_code);
 void add_explain_command(CLI::App& program, int& exit_code);
+void add_bench_command(CLI::App& program, int& exit_code);
 
 }  // namespace strata::tools

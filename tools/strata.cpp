@@ -113,6 +113,7 @@ int run(int argc, char** argv) {
     strata::tools::add_converge_command(program, exit_code);
     strata::tools::add_stability_command(program, exit_code);
     strata::tools::add_explain_command(program, exit_code);
+    strata::tools::add_bench_command(program, exit_code);
     // Commands added later would inherit it.
     program.footer("'strata COMMAND --help' explains each. `strata render` without more renders the scene terrain.");
     try {
