@@ -22,7 +22,7 @@ nlohmann::json parse(const std::filesystem::path& file) {
     if (!stream) refuse(file, "cannot be read; allowed: a bench.json of strata bench");
     nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
     if (json.is_discarded()) refuse(file, "is no JSON; allowed: a bench.json of strata bench");
-    if (!json.is_object() || json.value("kind", "") != "strata bench") {
+    if (!json.is_object() || json.value("kind", nlohmann::json()) != "strata bench") {
         refuse(file, "is no benchmark; allowed: a bench.json of strata bench");
     }
     const nlohmann::json format = json.value("format", nlohmann::json());

@@ -85,13 +85,18 @@ std::string memory_table(const Results& results) {
 std::string figures_table(const Results& results, const std::vector<Figure>& figures) {
     std::string text = fmt::format("{:<14} {:>9} {:>9} {:>8} {:>8}  {:<12}  {}\n", "figure", "value", "medians",
                                    "floor", "aim", "", "");
+    std::string missing;
     for (const Figure& figure : figures) {
-        text += fmt::format("{:<14} {:>9} {:>9} {:>8} {:>8}  {:<12}  {}{}\n", figure.name,
-                            figure.value ? figure.text(*figure.value) : "-",
+        if (!figure.value) {
+            missing += fmt::format("{}{} ({})", missing.empty() ? "" : ", ", figure.name, figure.note);
+            continue;
+        }
+        text += fmt::format("{:<14} {:>9} {:>9} {:>8} {:>8}  {:<12}  {}{}\n", figure.name, figure.text(*figure.value),
                             figure.of_medians ? figure.text(*figure.of_medians) : "", figure.text(figure.floor),
                             figure.aim ? figure.text(*figure.aim) : "", verdict_name(figure.verdict()), figure.meaning,
                             figure.note.empty() ? "" : fmt::format(" ({})", figure.note));
     }
+    if (!missing.empty()) text += fmt::format("Not measured: {}\n", missing);
     const PlanSettings& settings = results.plan.settings;
     if (settings.quick || settings.rays)
         text += "Made with --quick or --rays: these are not the figures of whole frames.\n";
