@@ -19,7 +19,7 @@ struct Size {
     int width, height;
 };
 
-constexpr SubsetLimits kUsual{4'000'000, 45};
+constexpr SubsetLimits kUsual{3'000'000, 45};
 constexpr SubsetLimits kQuick{300'000, 4};
 // Each ray of the reference tracer is on its own: any pixels will do, and it takes 40 times as long.
 constexpr int kReferenceBlock = 16;  // px
@@ -155,7 +155,7 @@ void Planner::resolution() {
         Curve curve{Section::resolution, "frame's width / px", fmt::format("N = {}", N), {}};
         for (const Size& size : all) {
             Variant variant = hyperterrain();
-            if (size.width > 1920) variant.block_seed = kHyperterrainSeed4k;
+            if (size.width > 1920 && N > 2) variant.block_seed = kHyperterrainSeed4k;
             curve.points.push_back({1.0 * size.width, add(variant, size, N)});
         }
         plan_.curves.push_back(curve);

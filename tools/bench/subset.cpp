@@ -12,7 +12,7 @@ namespace strata::tools::bench {
 namespace {
 
 // Above this share of the frame's blocks, the rest is measured too.
-constexpr double kNearlyWhole = 0.4;
+constexpr double kNearlyWhole = 0.3;
 
 struct BlockGrid {
     int side, columns, rows;

@@ -16,7 +16,7 @@ inline constexpr int kBlockUnit = 64;
 inline constexpr std::int64_t kBatchSamples = 65536;
 
 struct SubsetLimits {
-    std::int64_t rays = 4'000'000;  // wanted at most; kept to within a block
+    std::int64_t rays = 3'000'000;  // wanted at most; kept to within a block
     int least_blocks = 45;          // even if they have more rays
 };
 

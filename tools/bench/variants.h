@@ -14,7 +14,7 @@ struct Variant {
     std::uint64_t block_seed = 1;  // for subset_of(), see variants.cpp
 };
 
-// hyperterrain's block_seed for frames of 3840x2160.
+// hyperterrain's block_seed for 64 px of a frame of 3840x2160. Its blocks of 128 px are those of 64 px of 1920x1080.
 inline constexpr std::uint64_t kHyperterrainSeed4k = 5732;
 
 Variant hyperterrain();
