@@ -35,15 +35,15 @@ check_run() {
 }
 
 check_against() {
-    run bench "${tiny[@]}" --only octaves --quiet -o then
-    run bench "${tiny[@]}" --only octaves,samples --against then/bench.json -o now
+    run bench "${tiny[@]}" --only octaves --quiet -o before
+    run bench "${tiny[@]}" --only octaves,samples --against before/bench.json -o now
     expect_match 'a later run prints ratios' "$status: $output" '0: *now over then*hyperterrain, 4 octaves*geometric mean*'
     expect 'counts have not changed' "$(sed -n 's/^ *"evaluations_per_ray_ratio": //p' now/bench.json | sort -u)" 1.0
-    refuses 'other blocks are refused before anything is measured' 2 "*then/bench.json: its 'hyperterrain*another scene or other pixels*" \
-        bench --quick --rays 200000 --only octaves --against then/bench.json -o other
-    refuses 'other sections are refused' 2 '*then/bench.json: has no case of this run*' \
-        bench "${tiny[@]}" --only reference --against then/bench.json -o other
-    sed 's/"format": 1/"format": 2/' then/bench.json >newer.json
+    refuses 'other blocks are refused before anything is measured' 2 "*before/bench.json: its 'hyperterrain*another scene or other pixels*" \
+        bench --quick --rays 200000 --only octaves --against before/bench.json -o other
+    refuses 'other sections are refused' 2 '*before/bench.json: has no case of this run*' \
+        bench "${tiny[@]}" --only reference --against before/bench.json -o other
+    sed 's/"format": 1/"format": 2/' before/bench.json >newer.json
     refuses 'another format is refused' 2 '*newer.json: is of format 2*' bench "${tiny[@]}" --only octaves --against newer.json
     refuses 'a file that is not there is refused' 2 '*nowhere.json: cannot be read*' bench --quick --against nowhere.json
     echo 'x' >text
