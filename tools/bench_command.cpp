@@ -134,7 +134,7 @@ void add_bench_command(CLI::App& program, int& exit_code) {
     command->add_flag(
         "--whole", request->whole,
         "Whole frames: 1920x1080 at N = 10 is 207 M rays a case and round. Without it frames of more than "
-        "3 M rays are measured in 45 fixed blocks or more, spread over them");
+        "1 M rays are measured in 16 fixed blocks, chosen to be like all of them");
     command->add_option("--rays", request->rays, "Rays that a case's blocks have at most, nearly; one block at least")
         ->type_name("R");
     command->add_option("--simd", request->simd, "avx512, avx2, sse4 or scalar; default the best that is here")

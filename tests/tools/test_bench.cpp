@@ -72,7 +72,7 @@ TEST_CASE("blocks are whole, aligned, inside the frame, and each there once") {
     for (const auto& [width, height] : {std::pair{1920, 1080}, {480, 270}, {3840, 2160}, {65, 64}, {1, 1}, {7, 4000}}) {
         for (const int samples : {1, 4, 9, 16, 100, 4096}) {
             for (const std::int64_t rays : {std::int64_t{1}, std::int64_t{300'000}, std::int64_t{4'000'000}}) {
-                const Subset subset = subset_of(width, height, samples, {rays, 4}, 7);
+                const Subset subset = subset_of(width, height, samples, {rays, 4}, {});
                 REQUIRE_FALSE(subset.windows.empty());
                 std::set<std::pair<int, int>> corners;
                 std::int64_t pixels = 0;
@@ -97,11 +97,11 @@ TEST_CASE("blocks are whole, aligned, inside the frame, and each there once") {
 TEST_CASE("a subset is the same every time, another by another seed") {
     const auto corners = [](std::uint64_t seed) {
         std::set<std::pair<int, int>> all;
-        for (const render::Window& w : subset_of(1920, 1080, 100, {4'000'000, 45}, seed).windows)
+        for (const render::Window& w : subset_of(1920, 1080, 100, {1'000'000, 16}, {seed, seed, seed, seed}).windows)
             all.insert({w.x0, w.y0});
         return all;
     };
-    CHECK(corners(1).size() == 45);
+    CHECK(corners(1).size() == 16);
     CHECK(corners(1) == corners(1));
     CHECK(corners(1) != corners(2));
 }

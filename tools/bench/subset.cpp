@@ -12,7 +12,7 @@ namespace strata::tools::bench {
 namespace {
 
 // Above this share of the frame's blocks, the rest is measured too.
-constexpr double kNearlyWhole = 0.3;
+constexpr double kNearlyWhole = 0.5;
 
 struct BlockGrid {
     int side, columns, rows;
@@ -22,9 +22,17 @@ struct BlockGrid {
     std::int64_t count() const { return std::int64_t{1} * columns * rows; }
 };
 
+std::uint64_t seed_of(const BlockSeeds& seeds, int columns) {
+    return columns == 8 ? seeds.of_8 : columns == 15 ? seeds.of_15 : columns == 30 ? seeds.of_30 : seeds.other;
+}
+
 int side_of_blocks(int width, int height, std::int64_t samples_a_pixel) {
     int side = kBlockUnit;
-    while (std::int64_t{1} * side * side * samples_a_pixel < kBatchSamples && side < std::max(width, height)) side *= 2;
+    const int longest = std::max(width, height);
+    while (side * kMostColumns < longest ||
+           (std::int64_t{1} * side * side * samples_a_pixel < kBatchSamples && side < longest)) {
+        side *= 2;
+    }
     return side;
 }
 
@@ -75,7 +83,8 @@ Subset blocks_of(int width, int height, int side, std::int64_t count, std::uint6
     return {choose_blocks(grid, width, height, std::min(count, grid.count()), seed), side};
 }
 
-Subset subset_of(int width, int height, std::int64_t samples_a_pixel, const SubsetLimits& limits, std::uint64_t seed) {
+Subset subset_of(int width, int height, std::int64_t samples_a_pixel, const SubsetLimits& limits,
+                 const BlockSeeds& seeds) {
     const BlockGrid grid(width, height, side_of_blocks(width, height, samples_a_pixel));
     const std::int64_t frame_rays = std::int64_t{1} * width * height * samples_a_pixel;
     const std::int64_t block_rays = std::int64_t{1} * grid.side * grid.side * samples_a_pixel;
@@ -83,7 +92,7 @@ Subset subset_of(int width, int height, std::int64_t samples_a_pixel, const Subs
     if (frame_rays <= limits.rays || static_cast<double>(wanted) > kNearlyWhole * static_cast<double>(grid.count())) {
         return {{{0, 0, width, height}}, 0};
     }
-    return {choose_blocks(grid, width, height, wanted, seed), grid.side};
+    return {choose_blocks(grid, width, height, wanted, seed_of(seeds, grid.columns)), grid.side};
 }
 
 }  // namespace strata::tools::bench

@@ -1,21 +1,18 @@
 // The fixed scenes of the benchmark. Their work is compared across versions: no value here may change.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "src/scene/scene.h"
+#include "tools/bench/subset.h"
 
 namespace strata::tools::bench {
 
 struct Variant {
     std::string name;
     scene::Scene scene;
-    std::uint64_t block_seed = 1;  // for subset_of(), see variants.cpp
+    BlockSeeds block_seeds{};
 };
-
-// hyperterrain's block_seed for 64 px of a frame of 3840x2160. Its blocks of 128 px are those of 64 px of 1920x1080.
-inline constexpr std::uint64_t kHyperterrainSeed4k = 5732;
 
 Variant hyperterrain();
 Variant hyperterrain_octaves(int octaves);
