@@ -74,7 +74,7 @@ Case sized(const Variant& variant, Size size, int N) {
 }
 
 std::string Planner::add(const Case& wanted) {
-    const std::string id = wanted.id();
+    std::string id = wanted.id();
     const bool known = std::ranges::any_of(plan_.cases, [&](const Case& other) { return other.id() == id; });
     if (!known) plan_.cases.push_back(wanted);
     return id;

@@ -63,7 +63,7 @@ void add_panel(Plot& plot, const Results& results, Section section, const std::s
     set_axis(panel, axis);
     panel.y.label = what;
     panel.y.min = 0;
-    panel.legend = PlotLegend::below;
+    panel.legend = PlotLegend::bottom_right;
     plot.panels.push_back(std::move(panel));
 }
 
@@ -102,7 +102,7 @@ void add_shares(Plot& plot, const Results& results, const Curve& curve) {
     panel.x.min = xs.front();
     panel.x.max = xs.back();
     panel.y = {.label = "time / %", .min = 0, .max = 100, .grid = false};
-    panel.legend = PlotLegend::below;
+    panel.legend = PlotLegend::bottom_right;
     plot.panels.push_back(std::move(panel));
 }
 
