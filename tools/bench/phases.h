@@ -16,7 +16,7 @@ struct Phase {
     std::uint64_t noise_evaluations = 0;
 };
 
-// In the order of work; empty where the renderer does not tell.
+// In the order of work; the last is what no phase of the image function accounts for: placing samples, adding them up.
 std::vector<Phase> phases_of(const render::RenderResult& result);
 
 // Adds `part` up into `sum`, by name.
