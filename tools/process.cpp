@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 extern char** environ;
 
@@ -83,9 +85,9 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments, 
     return child;
 }
 
-int wait_for(pid_t child) {
+int wait_for(pid_t child, rusage& usage) {
     int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    while (::wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
     }
     return status;
 }
@@ -104,13 +106,16 @@ fs::path find_program(const std::string& name, const std::string& debian_package
     throw ProcessError(fmt::format("{} is not installed: Debian has it in the package {}", name, debian_package));
 }
 
-void run_program(const fs::path& program, const std::vector<std::string>& arguments) {
+ProgramRun run_program(const fs::path& program, const std::vector<std::string>& arguments) {
     OutputPipe output(program);
     const pid_t child = start(program, arguments, output);
     output.close_writing();
-    const std::string words = output.read_all();
-    const int status = wait_for(child);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+    std::string words = output.read_all();
+    rusage usage{};
+    const int status = wait_for(child, usage);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+        return {std::move(words), static_cast<std::uint64_t>(usage.ru_maxrss) * 1024};
+    }
     const std::string how = WIFSIGNALED(status) ? fmt::format("ended by signal {}", WTERMSIG(status))
                                                 : fmt::format("failed with code {}", WEXITSTATUS(status));
     fail(program, words.empty() ? how : fmt::format("{}:\n{}", how, words));

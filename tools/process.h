@@ -1,6 +1,7 @@
 // Other programs that strata hands work to: gnuplot for plots, ffmpeg for films.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -18,8 +19,14 @@ class ProcessError : public std::runtime_error {
 // The program's path by PATH. Throws ProcessError, naming the Debian package that has it, when it is not there.
 std::filesystem::path find_program(const std::string& name, const std::string& debian_package);
 
+// A program that ended well.
+struct ProgramRun {
+    std::string output;  // the end of both streams' text: 4000 characters at least, if there are so many
+    std::uint64_t peak_memory_bytes = 0;  // resident
+};
+
 // Runs a program to its end, its standard input empty. Its output is caught and shown only when it fails: throws
 // ProcessError then, and when it could not be started. SIGINT and SIGTERM reach it as they reach this process.
-void run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments);
+ProgramRun run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments);
 
 }  // namespace strata::tools

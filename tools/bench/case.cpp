@@ -1,0 +1,31 @@
+#include "tools/bench/case.h"
+
+#include <fmt/format.h>
+
+#include "noise/hash.h"
+#include "tools/settings_mark.h"
+
+namespace strata::tools::bench {
+
+namespace {
+
+const char* tracer_word(render::Tracer tracer) { return tracer == render::Tracer::fast ? "fast" : "reference"; }
+
+}  // namespace
+
+std::string Case::id() const {
+    std::string text = fmt::format("{} {}x{} N={}", scene_name, scene.film.width, scene.film.height, scene.sampling.N);
+    if (tracer == render::Tracer::reference) text += " reference";
+    if (threads != 1) text += fmt::format(" threads={}", threads);
+    return text;
+}
+
+std::string Case::mark() const {
+    std::uint64_t sum = noise::mix64(static_cast<std::uint64_t>(threads));
+    for (const render::Window& window : subset.windows) {
+        sum = noise::mix64(sum + std::stoull(settings_mark(scene, window, tracer_word(tracer)), nullptr, 16));
+    }
+    return fmt::format("{:016x}", sum);
+}
+
+}  // namespace strata::tools::bench

@@ -1,0 +1,41 @@
+// A case as it was measured: counts, which are the same every time, and times, one a round.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "src/render/image_function.h"
+#include "tools/bench/case.h"
+#include "tools/bench/phases.h"
+
+namespace strata::tools::bench {
+
+// Which of the rounds' times is taken.
+enum class Pick { least, median };
+
+double pick_of(const std::vector<double>& values, Pick pick);
+
+struct Measurement {
+    Case what;
+    render::Counters counters{};
+    std::vector<double> cpu_s{};   // of all threads
+    std::vector<double> wall_s{};  // by the clock
+    std::vector<Phase> phases{};   // of the fastest round
+
+    double rays() const { return static_cast<double>(counters.rays); }
+    double ns_a_ray(Pick pick) const { return 1e9 * pick_of(cpu_s, pick) / rays(); }
+    double evaluations_a_ray() const { return static_cast<double>(counters.noise_evaluations) / rays(); }
+    double steps_a_ray() const { return static_cast<double>(counters.steps) / rays(); }
+    double ns_an_evaluation(Pick pick) const;
+};
+
+// One more round of the case. Throws std::runtime_error if its counts are not those of the rounds before: equal renders
+// do equal work. False, with nothing added, if cancelled.
+bool measure_round(Measurement& measurement, const render::CancelToken& cancel,
+                   const render::ProgressCallback& on_progress);
+
+// The one with this id; nullptr if there is none, or it has no round.
+const Measurement* find(const std::vector<Measurement>& all, const std::string& id);
+
+}  // namespace strata::tools::bench

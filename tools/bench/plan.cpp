@@ -1,0 +1,257 @@
+#include "tools/bench/plan.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "src/scene/key_text.h"
+#include "src/scene/suggest.h"
+#include "tools/bench/variants.h"
+#include "tools/errors.h"
+
+namespace strata::tools::bench {
+
+namespace {
+
+struct Size {
+    int width, height;
+};
+
+constexpr SubsetLimits kUsual{1'000'000, 16};
+constexpr SubsetLimits kQuick{300'000, 4};
+// Each ray of the reference tracer is on its own: any pixels will do, and it takes 40 times as long.
+constexpr int kReferenceBlock = 16;  // px
+constexpr int kReferenceBlocks = 64;
+constexpr std::uint64_t kReferenceSeed = 1;
+constexpr std::int64_t kAll = std::int64_t{1} << 62;
+
+class Planner {
+  public:
+    explicit Planner(const PlanSettings& settings) { plan_.settings = settings; }
+
+    Plan plan();
+
+  private:
+    SubsetLimits limits() const {
+        SubsetLimits limits = plan_.settings.quick ? kQuick : kUsual;
+        if (plan_.settings.rays) limits = {*plan_.settings.rays, 1};
+        if (plan_.settings.whole) limits.rays = kAll;
+        return limits;
+    }
+    Size table_size() const { return plan_.settings.quick ? Size{480, 270} : Size{1920, 1080}; }
+    int table_N() const { return plan_.settings.quick ? 4 : 10; }
+    std::vector<Size> sizes() const {
+        return plan_.settings.quick ? std::vector<Size>{{480, 270}} : std::vector<Size>{{480, 270}, {1920, 1080}};
+    }
+    std::vector<int> Ns() const { return plan_.settings.quick ? std::vector{2, 4} : std::vector{2, 4, 10}; }
+
+    // Its id.
+    std::string add(const Case& wanted);
+    std::string add(const Variant& variant, Size size, int N);
+    std::string add_reference(Size size);
+    std::string add_whole(const Variant& variant, Size size, int N, int threads);
+
+    void figures();
+    void scenes();
+    void octaves();
+    void samples();
+    void resolution();
+    void threads();
+    void reference();
+    void subset();
+
+    Plan plan_;
+};
+
+Case sized(const Variant& variant, Size size, int N) {
+    Case made{variant.name, variant.scene, {}};
+    made.scene.film.width = size.width;
+    made.scene.film.height = size.height;
+    made.scene.sampling.N = N;
+    return made;
+}
+
+std::string Planner::add(const Case& wanted) {
+    std::string id = wanted.id();
+    const bool known = std::ranges::any_of(plan_.cases, [&](const Case& other) { return other.id() == id; });
+    if (!known) plan_.cases.push_back(wanted);
+    return id;
+}
+
+std::string Planner::add(const Variant& variant, Size size, int N) {
+    Case made = sized(variant, size, N);
+    made.subset = subset_of(size.width, size.height, std::int64_t{1} * N * N, limits(), variant.block_seeds);
+    return add(made);
+}
+
+std::string Planner::add_whole(const Variant& variant, Size size, int N, int threads) {
+    Case made = sized(variant, size, N);
+    if (threads == 1) made.scene_name += ", in one piece";
+    made.subset = {{{0, 0, size.width, size.height}}, 0};
+    made.threads = threads;
+    return add(made);
+}
+
+std::string Planner::add_reference(Size size) {
+    Case made = sized(hyperterrain(), size, 1);
+    made.tracer = render::Tracer::reference;
+    const int blocks = plan_.settings.rays ? 1 : plan_.settings.quick ? 12 : kReferenceBlocks;
+    made.subset = blocks_of(size.width, size.height, kReferenceBlock, blocks, kReferenceSeed);
+    return add(made);
+}
+
+void Planner::figures() {
+    const Size size = table_size();
+    FigureCases& f = plan_.figures;
+    f.main = add(hyperterrain(), size, table_N());
+    f.few_samples = add(hyperterrain(), size, 2);
+    f.peer_samples = add(hyperterrain(), size, 4);
+    f.shadows = add(hyperterrain_shadows(), size, table_N());
+    f.octaves = add(hyperterrain_octaves(16), size, table_N());
+    f.planar = add(hyperterrain_planar(), size, table_N());
+    f.spin_still = add(planet(), size, table_N());
+    f.spin_moving = add(planet_turning(), size, table_N());
+    f.camera_still = add(flyover(), size, table_N());
+    f.camera_moving = add(flyover_moving(), size, table_N());
+    reference();
+    threads();
+}
+
+void Planner::scenes() {
+    for (const Variant& variant :
+         {hyperterrain(), hyperterrain_planar(), hyperterrain_shadows(), hyperterrain_octaves(16),
+          hyperterrain_shared(), terrain(), isosurface(), planet(), planet_turning(), flyover_moving()}) {
+        for (const Size& size : sizes()) {
+            for (const int N : Ns()) add(variant, size, N);
+        }
+    }
+}
+
+void Planner::octaves() {
+    for (const int N : {2, table_N()}) {
+        Curve curve{Section::octaves, "octaves", fmt::format("N = {}", N), {}};
+        for (const int octaves : {4, 8, 16, 24}) {
+            curve.points.push_back({1.0 * octaves, add(hyperterrain_octaves(octaves), table_size(), N)});
+        }
+        plan_.curves.push_back(curve);
+    }
+}
+
+void Planner::samples() {
+    for (const Size& size : sizes()) {
+        Curve curve{Section::samples, "N", fmt::format("{}×{}", size.width, size.height), {}};
+        std::vector<int> counts{1, 2, 3, 4, 6, 10};
+        if (plan_.settings.quick) counts = {1, 2, 4, 6};
+        for (const int N : counts) curve.points.push_back({1.0 * N, add(hyperterrain(), size, N)});
+        plan_.curves.push_back(curve);
+    }
+}
+
+void Planner::resolution() {
+    std::vector<Size> all{{240, 135}, {480, 270}, {960, 540}, {1920, 1080}, {3840, 2160}};
+    if (plan_.settings.quick) all.resize(3);
+    for (const int N : {2, 4}) {
+        Curve curve{Section::resolution, "frame's width / px", fmt::format("N = {}", N), {}};
+        for (const Size& size : all) {
+            curve.points.push_back({1.0 * size.width, add(hyperterrain(), size, N)});
+        }
+        plan_.curves.push_back(curve);
+    }
+}
+
+// One piece, as a user renders it: the threads share a frame, not blocks.
+void Planner::threads() {
+    if (std::thread::hardware_concurrency() < 2) return;
+    const Size size = plan_.settings.quick || plan_.settings.rays ? Size{480, 270} : Size{1920, 1080};
+    FigureCases& f = plan_.figures;
+    f.one_thread = add_whole(hyperterrain(), size, 2, 1);
+    f.two_threads = add_whole(hyperterrain(), size, 2, 2);
+}
+
+void Planner::reference() {
+    for (const Size& size : sizes()) plan_.figures.reference = add_reference(size);
+}
+
+// At N = 2 whole frames are cheap: each scene once whole, and once in the blocks that larger N are measured in.
+void Planner::subset() {
+    const Size size = table_size();
+    const std::int64_t samples = std::int64_t{1} * table_N() * table_N();
+    for (const Variant& variant : {hyperterrain(), hyperterrain_planar(), hyperterrain_shadows(),
+                                   hyperterrain_octaves(16), terrain(), isosurface(), planet(), flyover()}) {
+        Case part = sized(variant, size, 2);
+        part.subset = subset_of(size.width, size.height, samples, limits(), variant.block_seeds);
+        part.scene_name += ", in blocks";
+        Case whole = sized(variant, size, 2);
+        whole.scene_name += ", whole";
+        whole.subset = {{{0, 0, size.width, size.height}}, 0};
+        plan_.subset_pairs.push_back({add(part), add(whole)});
+    }
+}
+
+Plan Planner::plan() {
+    const std::vector<std::pair<Section, void (Planner::*)()>> makers{
+        {Section::figures, &Planner::figures},       {Section::scenes, &Planner::scenes},
+        {Section::octaves, &Planner::octaves},       {Section::samples, &Planner::samples},
+        {Section::resolution, &Planner::resolution}, {Section::threads, &Planner::threads},
+        {Section::reference, &Planner::reference},   {Section::subset, &Planner::subset}};
+    for (const auto& [section, make] : makers) {
+        if (plan_.has(section)) (this->*make)();
+    }
+    // What the peers are held against is measured in turns with them.
+    if (plan_.has(Section::peers)) {
+        plan_.figures.main = add(hyperterrain(), table_size(), table_N());
+        plan_.figures.peer_samples = add(hyperterrain(), table_size(), 4);
+    }
+    return std::move(plan_);
+}
+
+}  // namespace
+
+const std::vector<SectionName>& section_names() {
+    static const std::vector<SectionName> names{
+        {Section::figures, "figures", "what the target figures are taken from", true},
+        {Section::scenes, "scenes", "every scene, size and N", true},
+        {Section::octaves, "octaves", "cost against octaves: 4, 8, 16, 24", true},
+        {Section::samples, "samples", "cost against N", true},
+        {Section::resolution, "resolution", "cost against the frame's width", true},
+        {Section::threads, "threads", "two threads against one", true},
+        {Section::reference, "reference", "the reference tracer", true},
+        {Section::subset, "subset", "the measured part of the frame against all of it", false},
+        {Section::peers, "peers", "POV-Ray and Embree", false},
+        {Section::memory, "memory", "memory of whole renders, up to 16384x16384", false}};
+    return names;
+}
+
+std::vector<Section> parse_sections(const std::string& text) {
+    std::vector<std::string> known;
+    for (const SectionName& name : section_names()) known.emplace_back(name.name);
+    std::vector<Section> sections;
+    for (std::size_t start = 0; start <= text.size();) {
+        const std::size_t end = std::min(text.find(',', start), text.size());
+        const std::string word = text.substr(start, end - start);
+        const auto found = std::ranges::find(known, word);
+        if (found == known.end()) {
+            const auto near = scene::nearest(word, known);
+            throw UsageError(fmt::format("--only: '{}' is no section, allowed: {}{}", scene::excerpt(word),
+                                         fmt::join(known, ", "),
+                                         near ? fmt::format("; did you mean '{}'?", *near) : ""));
+        }
+        const Section section = section_names()[static_cast<std::size_t>(found - known.begin())].section;
+        if (std::ranges::find(sections, section) != sections.end()) {
+            throw UsageError(fmt::format("--only: '{}' is named twice", word));
+        }
+        sections.push_back(section);
+        start = end + 1;
+    }
+    return sections;
+}
+
+bool Plan::has(Section section) const {
+    return std::ranges::find(settings.sections, section) != settings.sections.end();
+}
+
+Plan make_plan(const PlanSettings& settings) { return Planner(settings).plan(); }
+
+}  // namespace strata::tools::bench

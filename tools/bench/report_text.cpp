@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "noise/simd_target.h"
+#include "tools/bench/report.h"
+#include "tools/converge/report.h"
+
+namespace strata::tools::bench {
+
+namespace {
+
+std::string scaled(std::uint64_t count) {
+    const auto value = static_cast<double>(count);
+    return value >= 1e6 ? fmt::format("{:.1f} M", value / 1e6) : fmt::format("{:.1f} k", value / 1e3);
+}
+
+std::string share_text(const Measurement& m) {
+    double total = 0;
+    for (const Phase& phase : m.phases) total += phase.seconds;
+    std::string text;
+    if (total <= 0) return text;
+    for (const Phase& phase : m.phases) {
+        const double share = 100 * phase.seconds / total;
+        if (share >= 0.5) text += fmt::format("{}{} {:.0f}", text.empty() ? "" : ", ", phase.name, share);
+    }
+    return text;
+}
+
+std::string cases_table(const Results& results) {
+    if (results.measurements.empty()) return "";
+    std::size_t width = 4;
+    for (const Measurement& m : results.measurements) width = std::max(width, m.what.id().size());
+    const bool shares =
+        std::ranges::any_of(results.measurements, [](const Measurement& m) { return !m.phases.empty(); });
+    std::string text = fmt::format("{:<{}}  {:>9}  {:>8}  {:>8}  {:>9}  {:>9}  {:>7}{}\n", "case", width, "rays",
+                                   "ns/ray", "median", "evals/ray", "steps/ray", "ns/eval", shares ? "  time / %" : "");
+    for (const Measurement& m : results.measurements) {
+        text += fmt::format("{:<{}}  {:>9}  {:>8.4g}  {:>8.4g}  {:>9.4g}  {:>9.4g}  {:>7.3g}", m.what.id(), width,
+                            scaled(m.counters.rays), m.ns_a_ray(Pick::least), m.ns_a_ray(Pick::median),
+                            m.evaluations_a_ray(), m.steps_a_ray(), m.ns_an_evaluation(Pick::least));
+        text += shares ? fmt::format("  {}\n", share_text(m)) : "\n";
+    }
+    return text + "\n";
+}
+
+std::string subset_table(const Results& results) {
+    std::string text;
+    for (const SubsetPair& pair : results.plan.subset_pairs) {
+        const Measurement *part = find(results.measurements, pair.part),
+                          *whole = find(results.measurements, pair.whole);
+        if (part == nullptr || whole == nullptr) continue;
+        text += fmt::format("  {}: {:+.2f} % evaluations a ray, {:+.1f} % ns a ray ({})\n", pair.part,
+                            100 * (part->evaluations_a_ray() / whole->evaluations_a_ray() - 1),
+                            100 * (part->ns_a_ray(Pick::least) / whole->ns_a_ray(Pick::least) - 1),
+                            part->what.subset.text());
+    }
+    return text.empty() ? text : "The blocks against the whole frame:\n" + text + "\n";
+}
+
+std::string peers_table(const Results& results) {
+    std::string text;
+    for (const PeerResult& peer : results.peers) {
+        text += fmt::format("  {:<26} {:>9.4g} ns/ray  (median {:.4g})  {}\n", peer.id,
+                            pick_of(peer.ns_a_ray, Pick::least), pick_of(peer.ns_a_ray, Pick::median), peer.what);
+        for (const auto& [name, value] : peer.facts) text += fmt::format("  {:<26}   {}: {:.4g}\n", "", name, value);
+    }
+    for (const std::string& missing : results.missing_peers) text += fmt::format("  {}\n", missing);
+    return text.empty() ? text : "Peers:\n" + text + "\n";
+}
+
+std::string memory_table(const Results& results) {
+    std::string text;
+    for (const MemoryResult& row : results.memory) {
+        if (row.peak_bytes > 0) {
+            text += fmt::format("  {:<12} {:>6.0f} MB in {:.1f} s\n", row.id, static_cast<double>(row.peak_bytes) / 1e6,
+                                row.seconds);
+        } else {
+            text += fmt::format("  {:<12} failed: {}\n", row.id, row.failure);
+        }
+    }
+    return text.empty() ? text : "Memory of whole renders:\n" + text + "\n";
+}
+
+std::string figures_table(const Results& results, const std::vector<Figure>& figures) {
+    std::string text = fmt::format("{:<14} {:>9} {:>9} {:>8} {:>8}  {:<12}  {}\n", "figure", "value", "medians",
+                                   "floor", "aim", "", "");
+    std::string missing;
+    for (const Figure& figure : figures) {
+        if (!figure.value) {
+            missing += fmt::format("{}{} ({})", missing.empty() ? "" : ", ", figure.name, figure.note);
+            continue;
+        }
+        text += fmt::format("{:<14} {:>9} {:>9} {:>8} {:>8}  {:<12}  {}{}\n", figure.name, figure.text(*figure.value),
+                            figure.of_medians ? figure.text(*figure.of_medians) : "", figure.text(figure.floor),
+                            figure.aim ? figure.text(*figure.aim) : "", verdict_name(figure.verdict()), figure.meaning,
+                            figure.note.empty() ? "" : fmt::format(" ({})", figure.note));
+    }
+    if (!missing.empty()) text += fmt::format("Not measured: {}\n", missing);
+    const PlanSettings& settings = results.plan.settings;
+    if (settings.quick || settings.rays)
+        text += "Made with --quick or --rays: these are not the figures of whole frames.\n";
+    return text;
+}
+
+std::string comparison_table(const std::vector<Comparison>& earlier) {
+    if (earlier.empty()) return "";
+    std::size_t width = 4;
+    for (const Comparison& row : earlier) width = std::max(width, row.id.size());
+    std::string text =
+        fmt::format("\n{:<{}}  {:>7}  {:>7}  {:>9}\n", "now over then", width, "ns/ray", "median", "evals/ray");
+    for (const Comparison& row : earlier) {
+        text += fmt::format("{:<{}}  {:>7.3f}  {:>7.3f}  {:>9.3f}\n", row.id, width, row.time_ratio, row.median_ratio,
+                            row.evaluations_ratio);
+    }
+    const Overall all = overall(earlier);
+    if (all.fast) text += fmt::format("{:<{}}  {:>7.3f}\n", "geometric mean", width, *all.fast);
+    if (all.fast && all.reference) {
+        text += fmt::format("{:<{}}  {:>7.3f}\n", "the same over the reference tracer's, for the machine", width,
+                            *all.fast / *all.reference);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string text_report(const Results& results, const std::vector<Figure>& figures,
+                        const std::vector<Comparison>& earlier) {
+    std::string text =
+        fmt::format("{}, {}; CPU time, least and median of {} round{}; one thread unless said\n\n", processor_name(),
+                    noise::simd_target(), results.rounds, results.rounds == 1 ? "" : "s");
+    text += cases_table(results) + subset_table(results) + peers_table(results) + memory_table(results);
+    return text + figures_table(results, figures) + comparison_table(earlier);
+}
+
+}  // namespace strata::tools::bench

@@ -1,0 +1,48 @@
+#include "tools/bench/run.h"
+
+#include "tools/batch_progress.h"
+#include "tools/bench/memory.h"
+#include "tools/bench/peers.h"
+
+namespace strata::tools::bench {
+
+namespace {
+
+// Of progress: seconds that a case takes, nearly; the reference tracer's rays cost as much as 40.
+double weight_of(const Case& what) {
+    const double samples = static_cast<double>(what.scene.sampling.N) * what.scene.sampling.N;
+    const double rays = static_cast<double>(what.subset.pixels()) * samples;
+    return (what.tracer == render::Tracer::reference ? 40 * rays : rays) / what.threads;
+}
+
+}  // namespace
+
+Results run(const Plan& plan, int rounds, render::ProgressPrinter& progress, const render::CancelToken& cancel) {
+    Results results{.plan = plan};
+    double total = 0;
+    for (const Case& what : plan.cases) {
+        results.measurements.push_back({.what = what});
+        total += rounds * weight_of(what);
+    }
+    std::unique_ptr<Peers> peers;
+    if (plan.has(Section::peers)) peers = std::make_unique<Peers>(plan);
+    BatchProgress batch(total, progress.callback());
+    std::vector<Measurement> whole_rounds = results.measurements;
+    for (int round = 0; round < rounds && !cancel.requested(); ++round) {
+        bool finished = true;
+        for (Measurement& m : results.measurements) {
+            if (!(finished = measure_round(m, cancel, batch.next(weight_of(m.what))))) break;
+        }
+        if (finished && peers) finished = peers->measure_round(cancel);
+        if (!finished) break;
+        whole_rounds = results.measurements;
+        ++results.rounds;
+    }
+    results.measurements = std::move(whole_rounds);
+    if (peers) peers->report(results);
+    if (plan.has(Section::memory) && !cancel.requested()) results.memory = measure_memory(plan.settings.quick, cancel);
+    if (results.rounds == 0) results.measurements.clear();
+    return results;
+}
+
+}  // namespace strata::tools::bench
