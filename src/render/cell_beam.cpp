@@ -69,21 +69,23 @@ std::optional<CellBeam> CellBeams::around(const ScreenCell& cell) const {
 
     const glm::dmat3 orientation = placement_.orientation(middle);
     CellBeam result;
-    result.shift = swept.shift;
+    result.shift = 2.0 * swept.shift;
     result.cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
     trace::Beam& beam = result.beam;
     beam.origin = placement_.point_to_local(orientation, camera_.position());
     beam.direction = glm::normalize(trace::Placement::direction_to_local(orientation, cone.direction));
     beam.noise_shift = field_.noise_shift(middle);
-    beam.radius0 = swept.shift * (1.0 + tangent);
+    beam.radius0 = swept.shift;
     beam.spread = tangent;
     beam.noise_radius = swept.noise;
-    beam.limit = limit_ + swept.shift;
+    beam.limit = limit_ + result.shift;
     if (std::isfinite(bounding_ball_)) {
         const double entry = enters(beam, std::atan(cone.tangent));
-        beam.start = std::max(0.0, entry * result.cosine - swept.shift);
+        beam.start = entry * result.cosine;
         beam.limit = std::min(beam.limit, glm::length(beam.origin) + bounding_ball_ + swept.shift);
     }
+    // At other times rays begin up to `shift` behind the eye of the interval's middle.
+    beam.origin -= swept.shift * beam.direction;
     return result;
 }
 

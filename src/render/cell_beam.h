@@ -12,8 +12,8 @@
 
 namespace strata::render {
 
-// A ray's point at distance s of its origin has an axis coordinate of at most s + shift, and at least
-// s * cosine - shift.
+// Where a ray can be solid, its point at distance s of its origin has an axis coordinate of at most s + shift, and at
+// least s * cosine.
 struct CellBeam {
     trace::Beam beam;
     double shift = 0.0;

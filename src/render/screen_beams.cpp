@@ -67,7 +67,7 @@ void ScreenBeams::split(int level, BeamedSamples& out) const {
             std::optional<CellBeam> cell = around_.around(hierarchy_.cell(code, level));
             if (!cell) cell.emplace();  // with a limit of 0: left at once
             trace::Beam& beam = cell->beam;
-            beam.start = std::max(beam.start, (node.reached * cell->cosine - cell->shift) * kShort);
+            beam.start = std::max(beam.start, node.reached * cell->cosine * kShort);
             beam.hint = node.hint;
             out.beams.push_back(beam);
             out.cell_beams.push_back(*cell);

@@ -103,9 +103,7 @@ struct Samples {
         return {std::span(u).subspan(first, count), std::span(v).subspan(first, count),
                 std::span(t).subspan(first, count)};
     }
-    void push(double at_u, double at_v, double at_t) {
-        u.push_back(at_u), v.push_back(at_v), t.push_back(at_t);
-    }
+    void push(double at_u, double at_v, double at_t) { u.push_back(at_u), v.push_back(at_v), t.push_back(at_t); }
 };
 
 // Spread over the frame and beyond its edges, and a dense patch whose cells are full.
@@ -203,15 +201,15 @@ TEST_CASE("the distances in a beamed picture are first hits within the tolerance
         std::size_t hits = 0;
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const double t = samples.t[i];
-            const trace::Ray ray = image.to_local(image.placement().orientation(t),
-                                                  image.camera_ray(samples.u[i], samples.v[i], t), t);
+            const trace::Ray ray =
+                image.to_local(image.placement().orientation(t), image.camera_ray(samples.u[i], samples.v[i], t), t);
             const oracle::FieldOracle field(oracle::shape_of(scene.surface, t));
             const Seen seen = seen_by(radiance[i]);
             hits += seen.hit;
             const auto delta = [&](double s) { return ray.delta0 + ray.delta_slope * s + decoding_error(s); };
-            const oracle::Verdict verdict = oracle::judge_ray(
-                field, {ray.origin.x, ray.origin.y, ray.origin.z},
-                {ray.direction.x, ray.direction.y, ray.direction.z}, ray.limit, delta, {seen.hit, seen.s}, 200'000);
+            const oracle::Verdict verdict = oracle::judge_ray(field, {ray.origin.x, ray.origin.y, ray.origin.z},
+                                                              {ray.direction.x, ray.direction.y, ray.direction.z},
+                                                              ray.limit, delta, {seen.hit, seen.s}, 200'000);
             missed += verdict.missed;
             unfounded += verdict.unfounded;
             undecided += verdict.undecided || verdict.cut_short;

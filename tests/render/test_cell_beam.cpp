@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "src/trace/beam_tracer.h"
 #include "tests/trace/ray_families.h"
 
 using namespace strata;
@@ -72,7 +73,10 @@ double within(Random& random, double first, double length) {
 
 struct Scenery {
     explicit Scenery(const scene::Scene& s)
-        : scene(s), camera(s.camera, s.film), placement(s.surface), field(s.surface),
+        : scene(s),
+          camera(s.camera, s.film),
+          placement(s.surface),
+          field(s.surface),
           beams(scene, camera, placement, field) {}
 
     trace::Ray ray(double u, double v, double t) const {
@@ -125,8 +129,11 @@ double distance_on(Random& random, const trace::Ray& ray) {
         case 2:
             return ray.limit * uniform(random, 0.0, 1.0);
         default:
-            return std::clamp(nearest + uniform(random, -1.5, 1.5) * std::sqrt(std::max(0.0, 
-                glm::dot(ray.origin, ray.origin) - nearest * nearest)) + uniform(random, -10.0, 10.0), 0.0, ray.limit);
+            return std::clamp(nearest +
+                                  uniform(random, -1.5, 1.5) *
+                                      std::sqrt(std::max(0.0, glm::dot(ray.origin, ray.origin) - nearest * nearest)) +
+                                  uniform(random, -10.0, 10.0),
+                              0.0, ray.limit);
     }
 }
 
@@ -138,8 +145,7 @@ void measure(Random& random, const Scenery& scenery, const ScreenCell& cell, Exc
     REQUIRE(std::abs(glm::length(beam.direction) - 1.0) < 1e-14);
     for (int i = 0; i < 60; ++i) {
         const double t = within(random, cell.time.first, cell.time.last - cell.time.first);
-        const trace::Ray ray =
-            scenery.ray(within(random, cell.x, cell.side), within(random, cell.y, cell.side), t);
+        const trace::Ray ray = scenery.ray(within(random, cell.x, cell.side), within(random, cell.y, cell.side), t);
         const double s = distance_on(random, ray);
         const glm::dvec3 x = ray.origin + s * ray.direction;
         if (!scenery.may_be_solid(x)) continue;
@@ -170,8 +176,8 @@ void check_kind(SurfaceKind kind, int motion) {
         const Scenery scenery(random_scene(random, kind, motion));
         for (int i = 0; i < 8; ++i) measure(random, scenery, random_cell(random, scenery.scene.film), worst);
     }
-    MESSAGE("kind " << static_cast<int>(kind) << ", motion " << motion << ": " << worst.beams << " beams, " << worst.none
-                    << " cells without, " << worst.points << " points, at most " << worst.widest_share
+    MESSAGE("kind " << static_cast<int>(kind) << ", motion " << motion << ": " << worst.beams << " beams, "
+                    << worst.none << " cells without, " << worst.points << " points, at most " << worst.widest_share
                     << " of the radius; before the origin " << worst.before_origin);
     CHECK(worst.across <= kRounding);
     CHECK(worst.ahead <= kRounding);
@@ -205,6 +211,80 @@ TEST_CASE("rays through a cell at all of its times stay in its beam, with noise 
     }
 }
 
+namespace {
+
+// A surface with spikes, or a nearly smooth one, that spins past an eye close to it.
+scene::Scene spikes(Random& random, SurfaceKind kind) {
+    scene::Scene scene;
+    scene.film = {.width = 64, .height = 36};
+    scene.surface = surface_of(kind);
+    scene.surface.octaves = 1 + static_cast<int>(random() % 3);
+    scene.surface.amplitude = random() % 2 == 0 ? log_uniform(random, 0.5, 2.0) : log_uniform(random, 1e-3, 0.5);
+    scene.surface.frequency = log_uniform(random, 0.2, 1.0);
+    scene.surface.radius = 4.0;
+    scene.surface.threshold = 0.2 * scene.surface.amplitude;
+    scene.surface.bound_size = glm::dvec3(6.0);
+    scene.surface.seed = random() >> 1;
+    scene.surface.spin_deg_per_s = 60.0;
+    const double height = uniform(random, 0.1, 0.7) * std::max(0.3, scene.surface.amplitude);
+    const glm::dvec3 away = uniform(random, 2.0, 5.0) * unit_vector(random);
+    scene.camera.position = kind == SurfaceKind::planet       ? (scene.surface.radius + height) * glm::normalize(away)
+                            : kind == SurfaceKind::isosurface ? away
+                                                              : glm::dvec3(away.x, height, away.z);
+    // Land that goes past, up or down, or anyhow; seen about the way that the eye takes over it.
+    const glm::dvec3 axes[] = {glm::dvec3(0.0, 1.0, 0.0), unit_vector(random),
+                               glm::normalize(glm::cross(away, glm::dvec3(0.0, 1.0, 0.0)))};
+    scene.surface.spin_axis = axes[random() % 3];
+    const glm::dvec3 way = glm::normalize(glm::cross(scene.camera.position, scene.surface.spin_axis));
+    scene.camera.look_at =
+        scene.camera.position + (random() % 2 == 0 ? way : -way) + uniform(random, 0.0, 0.7) * unit_vector(random);
+    scene.camera.far = 50.0;
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("every ray of a cell is free up to where the cell's beam ended, where land spins past the eye") {
+    Random random(96);
+    for (const SurfaceKind kind : kKinds) {
+        int passed = 0, rays = 0, inside = 0;
+        for (int trial = 0; trial < 1500; ++trial) {
+            const Scenery scenery(spikes(random, kind));
+            const ScreenCell cell{.x = 4.0 * static_cast<double>(random() % 16),
+                                  .y = 4.0 * static_cast<double>(random() % 9),
+                                  .side = 4.0,
+                                  .time = {0.0, log_uniform(random, 1e-3, 0.3)}};
+            const auto found = scenery.beams.around(cell);
+            if (!found) continue;
+            trace::BeamEnd end;
+            trace::TraceCounters counters;
+            trace::BeamTracer(scenery.field).trace({&found->beam, 1}, {&end, 1}, counters);
+            const double free = std::min(end.s - found->shift, scenery.scene.camera.far);
+            if (!(free > 0.0)) continue;
+            ++passed;
+            const oracle::FieldOracle field(oracle::shape_of(scenery.scene.surface));
+            for (int i = 0; i < 12; ++i) {
+                const double t = within(random, cell.time.first, cell.time.last);
+                const trace::Ray ray =
+                    scenery.ray(within(random, cell.x, cell.side), within(random, cell.y, cell.side), t);
+                const double s = free * (i < 4 ? 0.0 : uniform(random, 0.0, 1.0));
+                const glm::dvec3 x = ray.origin + s * ray.direction;
+                ++rays;
+                if (!scenery.may_be_solid(x) || field.value({x.x, x.y, x.z}) > 0.0) continue;
+                ++inside;
+                INFO("seed " << scenery.scene.surface.seed << " octaves " << scenery.scene.surface.octaves
+                             << " amplitude " << scenery.scene.surface.amplitude << " eye "
+                             << scenery.scene.camera.position.x << ' ' << scenery.scene.camera.position.y << ' '
+                             << scenery.scene.camera.position.z << " t " << t << " of " << cell.time.last << " s " << s
+                             << " free up to " << free);
+                CHECK(inside == 0);
+            }
+        }
+        MESSAGE("kind " << static_cast<int>(kind) << ": " << passed << " beams went on, " << rays << " points");
+        CHECK(passed > 100);
+    }
+}
+
 TEST_CASE("a camera's cone holds the rays through its square and is no wider than half as much again") {
     Random random(95);
     int wide = 0, cones = 0;
@@ -221,8 +301,9 @@ TEST_CASE("a camera's cone holds the rays through its square and is no wider tha
         ++cones;
         double most = 0.0;
         for (int i = 0; i < 24; ++i) {
-            const glm::dvec3 d = camera.ray(i < 4 ? cell.x + (i & 1) * cell.side : within(random, cell.x, cell.side),
-                                            i < 4 ? cell.y + (i >> 1) * cell.side : within(random, cell.y, cell.side))
+            const glm::dvec3 d = camera
+                                     .ray(i < 4 ? cell.x + (i & 1) * cell.side : within(random, cell.x, cell.side),
+                                          i < 4 ? cell.y + (i >> 1) * cell.side : within(random, cell.y, cell.side))
                                      .direction;
             const double cosine = glm::dot(d, cone.direction);
             REQUIRE(cosine > 0.0);

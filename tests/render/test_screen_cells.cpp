@@ -130,14 +130,14 @@ TEST_CASE("sides grow fourfold to 64 px at least, and the coarsest cells span th
         }
         const int top = hierarchy.levels() - 1;
         CHECK(hierarchy.side(top) >= 64.0);
-        const ScreenCell cell =
-            hierarchy.cell(hierarchy.code(0.0, 0.0, c.shutter.first) >> hierarchy.shift(top), top);
+        const ScreenCell cell = hierarchy.cell(hierarchy.code(0.0, 0.0, c.shutter.first) >> hierarchy.shift(top), top);
         CHECK(cell.time.first <= c.shutter.first);
         CHECK(cell.time.last >= c.shutter.last);
     }
 }
 
-TEST_CASE("samples share a shifted code where they share a cell, and only there, and cells of a level lie in their parents") {
+TEST_CASE(
+    "samples share a shifted code where they share a cell, and only there, and cells of a level lie in their parents") {
     Random random(82);
     for (const Case& c : cases()) {
         const ScreenHierarchy hierarchy = c.hierarchy();
