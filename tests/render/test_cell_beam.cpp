@@ -284,37 +284,3 @@ TEST_CASE("every ray of a cell is free up to where the cell's beam ended, where 
         CHECK(passed > 100);
     }
 }
-
-TEST_CASE("a camera's cone holds the rays through its square and is no wider than half as much again") {
-    Random random(95);
-    int wide = 0, cones = 0;
-    double worst = -1.0, loosest = 0.0;
-    for (int trial = 0; trial < 4000; ++trial) {
-        const scene::Scene scene = random_scene(random, SurfaceKind::terrain, 0);
-        const trace::Camera camera(scene.camera, scene.film);
-        const ScreenCell cell = random_cell(random, scene.film);
-        const trace::CameraCone cone = camera.cone(cell.x, cell.y, cell.side);
-        if (!(cone.tangent < 1e3)) {
-            ++wide;
-            continue;
-        }
-        ++cones;
-        double most = 0.0;
-        for (int i = 0; i < 24; ++i) {
-            const glm::dvec3 d = camera
-                                     .ray(i < 4 ? cell.x + (i & 1) * cell.side : within(random, cell.x, cell.side),
-                                          i < 4 ? cell.y + (i >> 1) * cell.side : within(random, cell.y, cell.side))
-                                     .direction;
-            const double cosine = glm::dot(d, cone.direction);
-            REQUIRE(cosine > 0.0);
-            most = std::max(most, glm::length(glm::cross(d, cone.direction)) / cosine);
-        }
-        worst = std::max(worst, most - cone.tangent);
-        // Seen at a slant a square is narrower than its cone, in one direction at least.
-        if (cone.tangent < 0.05 && scene.camera.fov_deg < 60.0) loosest = std::max(loosest, cone.tangent / most);
-    }
-    MESSAGE(cones << " cones, " << wide << " too wide; up to " << loosest << " of the angle that is needed");
-    CHECK(worst <= 1e-15);
-    CHECK(cones > 2000);
-    CHECK(loosest < 1.5);
-}

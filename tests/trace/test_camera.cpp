@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -148,4 +149,43 @@ TEST_CASE("pixel_angle is the least angular width of a small pixel, across the f
     MESSAGE("narrowest width found " << least << " of pixel_angle; pixel_angle at most " << most_of_whole
                                      << " of a whole pixel's angle (frames 16 pixels wide and more)");
     CHECK(least > 1.0 - 1e-6);
+}
+
+TEST_CASE("a cone holds the rays through its square and, where the view is narrow, is hardly wider") {
+    Random random(27);
+    int wide = 0, cones = 0;
+    double worst = -1.0, loosest = 0.0;
+    for (int trial = 0; trial < 6000; ++trial) {
+        const View view = random_view(random);
+        const trace::Camera camera(view.camera, view.film);
+        const double side = std::exp2(uniform(random, -6.0, 8.0));
+        const double u = uniform(random, -0.1, 1.1) * view.film.width,
+                     v = uniform(random, -0.1, 1.1) * view.film.height;
+        const trace::CameraCone cone = camera.cone(u, v, side);
+        if (!(cone.tangent < 1e3)) {
+            ++wide;
+            continue;
+        }
+        ++cones;
+        REQUIRE(std::abs(glm::length(cone.direction) - 1.0) < 1e-15);
+        double most = 0.0;
+        for (int i = 0; i < 24; ++i) {
+            const double across = i < 4 ? i & 1 : uniform(random, 0.0, 1.0);
+            const double down = i < 4 ? i >> 1 : uniform(random, 0.0, 1.0);
+            const glm::dvec3 d = camera.ray(u + across * side, v + down * side).direction;
+            const double cosine = glm::dot(d, cone.direction);
+            REQUIRE(cosine > 0.0);
+            most = std::max(most, glm::length(glm::cross(d, cone.direction)) / cosine);
+        }
+        worst = std::max(worst, most - cone.tangent);
+        // The tangent of the angle to the edge of a frame that is seen at up to 30 degrees: the square is
+        // foreshortened.
+        if (cone.tangent < 0.05 && glm::dot(cone.direction, forward_of(view.camera)) > std::cos(kPi / 6.0)) {
+            loosest = std::max(loosest, cone.tangent / most);
+        }
+    }
+    MESSAGE(cones << " cones, " << wide << " too wide; up to " << loosest << " of the angle that is needed");
+    CHECK(worst <= 1e-15);
+    CHECK(cones > 5000);
+    CHECK(loosest < 1.3);
 }
