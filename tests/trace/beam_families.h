@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -65,6 +66,9 @@ class BeamFamilies {
                     beam.origin += far * glm::dvec3(uniform(random, -1.0, 1.0), 0.0, uniform(random, -1.0, 1.0));
                 }
                 break;
+            case 5:
+                if (field_.drifts()) settle_on_level_noise(random, beam);
+                break;
             default:
                 break;
         }
@@ -88,6 +92,23 @@ class BeamFamilies {
         if (s.kind == scene::SurfaceKind::planet) return (s.radius + height) * unit_vector(random);
         if (s.kind == scene::SurfaceKind::isosurface) return uniform(random, 0.0, 3.0) * unit_vector(random);
         return {uniform(random, -50.0, 50.0), height, uniform(random, -50.0, 50.0)};
+    }
+
+    // Where the noise rises as the base does f is level, yet noise that is displaced changes it: by about as much as
+    // f is here.
+    void settle_on_level_noise(Random& random, trace::Beam& beam) const {
+        double least = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < 200; ++i) {
+            const glm::dvec3 x = near_point(random);
+            const double f = field_.value(x, beam.noise_shift);
+            const double slope = glm::length(field_.gradient(x, beam.noise_shift));
+            if (!(f > 0.0) || slope >= least) continue;
+            least = slope;
+            beam.noise_radius = f * uniform(random, 0.5, 3.0);
+            beam.direction = unit_vector(random);
+            beam.radius0 = 0.05 * f;
+            beam.origin = x - 0.05 * f * beam.direction;
+        }
     }
 
     // Cones from a point, from a disc, cylinders, and beams without width.
