@@ -94,15 +94,20 @@ class BeamFamilies {
         return {uniform(random, -50.0, 50.0), height, uniform(random, -50.0, 50.0)};
     }
 
-    // Where the noise rises as the base does f is level, yet noise that is displaced changes it: by about as much as
-    // f is here.
+    // Just over the surface where the noise rises nearly as the base does: f is level there, yet noise that is
+    // displaced changes it by about what it is.
     void settle_on_level_noise(Random& random, trace::Beam& beam) const {
+        const double over = log_uniform(random, 1e-3, 3e-2) / field_.octaves().back().frequency;
         double least = std::numeric_limits<double>::infinity();
-        for (int i = 0; i < 200; ++i) {
-            const glm::dvec3 x = near_point(random);
+        for (int i = 0; i < 100; ++i) {
+            glm::dvec3 x = near_point(random);
+            for (int k = 0; k < 4; ++k) {
+                const glm::dvec3 gradient = field_.gradient(x, beam.noise_shift);
+                x -= (field_.value(x, beam.noise_shift) - over) / glm::dot(gradient, gradient) * gradient;
+            }
             const double f = field_.value(x, beam.noise_shift);
             const double slope = glm::length(field_.gradient(x, beam.noise_shift));
-            if (!(f > 0.0) || slope >= least) continue;
+            if (!(f > 0.5 * over && f < 2.0 * over && slope < least)) continue;
             least = slope;
             beam.noise_radius = f * uniform(random, 0.5, 3.0);
             beam.direction = unit_vector(random);
