@@ -114,8 +114,8 @@ std::string sections_text() {
 
 }  // namespace
 
-void add_bench_command(CLI::App& program, int& exit_code) {
-    CLI::App* command = program.add_subcommand("bench", "Measure the engine on fixed scenes, against its targets");
+void add_bench_command(Command& program, int& exit_code) {
+    Command* command = program.add_subcommand("bench", "Measure the engine on fixed scenes, against its targets");
     auto request = std::make_shared<BenchRequest>();
     command->add_option("--only", request->only, "Only these sections, with commas between; see below")
         ->type_name("SECTION,...");

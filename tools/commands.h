@@ -15,16 +15,6 @@ void add_animate_command(Command& program, int& exit_code);
 void add_figures_command(Command& program, int& exit_code);
 void add_stability_command(Command& program, int& exit_code);
 void add_explain_command(Command& program, int& exit_code);
-void add_render_command(CLI::App& program, int& exit_code);
-void add_scenes_command(CLI::App& program, int& exit_code);
-void add_converge_command(CLI::App& program, int& exit_code);
-void add_probe_command(CLI::App& program, int& exit_code);
-void add_strip_command(CLI::App& program, int& exit_code);
-void add_sweep_command(CLI::App& program, int& exit_code);
-void add_animate_command(CLI::App& program, int& exit_code);
-void add_figures_command(CLI::App& program, int& exit_code);
-void add_stability_command(CLI::App& program, int& exit_code);
-void add_explain_command(CLI::App& program, int& exit_code);
-void add_bench_command(CLI::App& program, int& exit_code);
+void add_bench_command(Command& program, int& exit_code);
 
 }  // namespace strata::tools

@@ -114,17 +114,7 @@ int run(int argc, char** argv) {
     strata::tools::add_converge_command(commands, exit_code);
     strata::tools::add_stability_command(commands, exit_code);
     strata::tools::add_explain_command(commands, exit_code);
-    strata::tools::add_render_command(program, exit_code);
-    strata::tools::add_scenes_command(program, exit_code);
-    strata::tools::add_probe_command(program, exit_code);
-    strata::tools::add_strip_command(program, exit_code);
-    strata::tools::add_sweep_command(program, exit_code);
-    strata::tools::add_animate_command(program, exit_code);
-    strata::tools::add_figures_command(program, exit_code);
-    strata::tools::add_converge_command(program, exit_code);
-    strata::tools::add_stability_command(program, exit_code);
-    strata::tools::add_explain_command(program, exit_code);
-    strata::tools::add_bench_command(program, exit_code);
+    strata::tools::add_bench_command(commands, exit_code);
     // Commands added later would inherit it.
     program.footer("'strata COMMAND --help' explains each. `strata render` without more renders the scene terrain.");
     try {
