@@ -35,7 +35,7 @@ std::uint64_t gather_bits(std::uint64_t x) {
     return (x | x >> 16) & 0xffff'ffff;
 }
 
-// Further out than kBias cells all share the outermost: their beams hold for none of them, so see usable().
+// Leaves are wide enough for every frame to lie within kBias of them.
 std::uint64_t column_of(double x) {
     return static_cast<std::uint64_t>(std::clamp(std::floor(x) + kBias, 0.0, 2.0 * kBias - 1.0));
 }
