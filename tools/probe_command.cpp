@@ -107,7 +107,7 @@ void probe_field(const SceneArgument& argument) {
         check_within_reach(field, glm::length(x) + glm::length(shift));
         std::string octaves;
         for (std::size_t k = 0; k < field.octaves().size(); ++k) {
-            octaves += (k ? "," : "") + number(field.octave(k, x, shift));
+            octaves += fmt::format("{}{}", k ? "," : "", number(field.octave(k, x, shift)));
         }
         print_out(fmt::format("{{\"f\":{},\"gradient\":{},\"octaves\":[{}]}}\n", number(field.value(x, shift)),
                               vector(orientation * field.gradient(x, shift) / placement.scale()), octaves));

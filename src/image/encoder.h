@@ -1,9 +1,6 @@
 // Pictures into the bytes of a file, strip by strip. Private to src/image.
 #pragma once
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -12,6 +9,7 @@
 
 #include "src/image/encode.h"
 #include "src/image/format.h"
+#include "src/image/openimageio.h"
 
 namespace strata::image {
 

@@ -1,4 +1,3 @@
-#include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <random>
 
 #include "src/image/image_error.h"
+#include "src/image/openimageio.h"
 #include "src/image/picture_stream.h"
 #include "src/image/read.h"
 #include "src/image/write.h"
