@@ -184,7 +184,7 @@ void check_statistics(const Job& job) {
 
 fs::path aov_path(const Job& job, Aov aov) {
     fs::path path = job.outputs.front();
-    return path.replace_extension("." + name_of(aov) + ".png");
+    return path.replace_extension(fmt::format(".{}.png", name_of(aov)));
 }
 
 fs::path partial_path(fs::path path) {
@@ -217,7 +217,7 @@ Job prepare(const RenderRequest& request) {
     job.metadata = picture_metadata(job.loaded.scene, job.window, job.tracer, format);
     if (is_tiled) job.metadata.set("strata:tiled", "asked for");
     std::string aovs;
-    for (const Aov aov : job.aovs) aovs += (aovs.empty() ? "" : ",") + name_of(aov);
+    for (const Aov aov : job.aovs) aovs += fmt::format("{}{}", aovs.empty() ? "" : ",", name_of(aov));
     if (!aovs.empty()) job.metadata.set("strata:aov", aovs);
     return job;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "src/render/bounding_ball.h"
+#include "src/render/camera_sweep.h"
 
 namespace strata::render {
 
@@ -16,55 +17,81 @@ constexpr double kWidest = 0.5;
 // Far above the rounding of what it is applied to, far below what matters.
 constexpr double kPad = 1.0 + 1e-9;
 
+double middle_of(const scene::TimeSpan& time) { return 0.5 * (time.first + time.last); }
+
 }  // namespace
 
-CellBeams::CellBeams(const scene::Scene& scene, const trace::Camera& camera, const trace::Placement& placement,
+CellBeams::CellBeams(const scene::Scene& scene, const scene::CameraPath& path, const trace::Placement& placement,
                      const trace::Field& field)
     : surface_(field.surface()),
-      camera_(camera),
+      path_(path),
+      film_(scene.film),
+      camera_moves_(path.moves_during(scene::open_shutter(scene))),
+      camera_(path.at(middle_of(scene::open_shutter(scene))), scene.film),
       placement_(placement),
       field_(field),
       limit_(scene.camera.far / placement.scale()),
       bounding_ball_(bounding_ball(field)),
-      eye_distance_(glm::length(placement.point_to_local(placement.orientation(0.0), camera.position()))),
-      pixel_angle_(camera.ray(0.5 * scene.film.width, 0.5 * scene.film.height).pixel_angle),
-      spin_rad_per_s_(placement.moves() ? std::abs(glm::radians(surface_.spin_deg_per_s)) : 0.0) {}
+      eye_distance_(glm::length(placement.point_to_local(placement.orientation(0.0), camera_.position()))),
+      spin_rad_per_s_(placement.moves() ? std::abs(glm::radians(surface_.spin_deg_per_s)) : 0.0) {
+    const double eye_height = placement.point_to_local(placement.orientation(0.0), camera_.position()).y;
+    typical_distance_ = std::isfinite(bounding_ball_) ? std::max(eye_distance_ - bounding_ball_, 0.01 * eye_distance_)
+                                                      : 2.0 * std::max(std::abs(eye_height), 0.1 * field.amplitude());
+    typical_distance_ = std::max(typical_distance_, 1e-300);
+}
 
 // The surface turns about its own origin: a solid point of a bounded one moves by at most its angle times the ball's
 // radius. Of the others the rays are turned, about an eye that moves.
-CellBeams::Sweep CellBeams::sweep(double half_seconds) const {
+std::optional<CellBeams::Sweep> CellBeams::sweep(const ScreenCell& cell, const trace::Camera& camera) const {
+    const double half_seconds = 0.5 * (cell.time.last - cell.time.first);
     Sweep sweep;
-    const double turn = spin_rad_per_s_ * half_seconds * kPad;
-    if (std::isfinite(bounding_ball_)) {
-        sweep.shift = turn * bounding_ball_;
-    } else {
-        sweep.shift = turn * eye_distance_;
-        sweep.angle = turn;
+    if (camera_moves_) {
+        const std::optional<CameraSweep> swept = sweep_camera(path_, camera, cell);
+        if (!swept) return std::nullopt;
+        sweep.shift = swept->shift / placement_.scale() * kPad;
+        sweep.eye_shift = sweep.shift;
+        sweep.angle = swept->angle;
+    }
+    if (spin_rad_per_s_ > 0.0) {
+        const double turn = spin_rad_per_s_ * half_seconds * kPad;
+        const double eye =
+            glm::length(placement_.point_to_local(placement_.resting_orientation(), camera.position())) + sweep.shift;
+        if (std::isfinite(bounding_ball_)) {
+            sweep.shift += turn * bounding_ball_;
+        } else {
+            sweep.shift += turn * eye;
+            sweep.angle += turn;
+        }
     }
     if (field_.drifts()) sweep.noise = glm::length(surface_.drift) * half_seconds * kPad;
     return sweep;
 }
 
 // The least distance from the eye at which a ray of the cone enters the bounding ball, that of the ray closest to the
-// ball's centre; infinite where none does.
-double CellBeams::enters(const trace::Beam& beam, double angle) const {
+// ball's centre; infinite where none does. The eye may be elsewhere by eye_shift: as though the ball were larger.
+double CellBeams::enters(const trace::Beam& beam, double angle, double eye_shift) const {
     const double eye = glm::length(beam.origin);
-    if (!(eye > bounding_ball_)) return 0.0;
+    const double ball = bounding_ball_ + eye_shift;
+    if (!(eye > ball)) return 0.0;
     const glm::dvec3 inward = -beam.origin / eye;
     const double off = std::atan2(glm::length(glm::cross(beam.direction, inward)), glm::dot(beam.direction, inward));
     const double nearest = std::max(0.0, off - angle - 1e-9);
-    const double half_squared = bounding_ball_ * bounding_ball_ - std::pow(eye * std::sin(nearest), 2);
+    const double half_squared = ball * ball - std::pow(eye * std::sin(nearest), 2);
     const double margin = 1e-9 * eye;
     if (half_squared <= 0.0 || std::cos(nearest) <= 0.0) return std::numeric_limits<double>::infinity();
     return std::max(0.0, eye * std::cos(nearest) - std::sqrt(half_squared) - margin);
 }
 
 std::optional<CellBeam> CellBeams::around(const ScreenCell& cell) const {
-    const trace::CameraCone cone = camera_.cone(cell.x, cell.y, cell.side);
+    const double middle = middle_of(cell.time);
+    const trace::Camera camera = camera_moves_ ? trace::Camera(path_.at(middle), film_) : camera_;
+    const trace::CameraCone cone = camera.cone(cell.x, cell.y, cell.side);
     if (!(cone.tangent <= kWidest)) return std::nullopt;
-    const double middle = 0.5 * (cell.time.first + cell.time.last);
-    const Sweep swept = sweep(0.5 * (cell.time.last - cell.time.first));
-    const double tangent = swept.angle > 0.0 ? std::tan(std::atan(cone.tangent) + swept.angle) * kPad : cone.tangent;
+    const std::optional<Sweep> bounds = sweep(cell, camera);
+    if (!bounds) return std::nullopt;
+    const Sweep& swept = *bounds;
+    const double half_angle = std::atan(cone.tangent) + swept.angle;
+    const double tangent = swept.angle > 0.0 ? std::tan(half_angle) * kPad : cone.tangent;
     if (!(tangent <= kWidest && tangent >= 0.0)) return std::nullopt;
 
     const glm::dmat3 orientation = placement_.orientation(middle);
@@ -72,7 +99,7 @@ std::optional<CellBeam> CellBeams::around(const ScreenCell& cell) const {
     result.shift = 2.0 * swept.shift;
     result.cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
     trace::Beam& beam = result.beam;
-    beam.origin = placement_.point_to_local(orientation, camera_.position());
+    beam.origin = placement_.point_to_local(orientation, camera.position());
     beam.direction = glm::normalize(trace::Placement::direction_to_local(orientation, cone.direction));
     beam.noise_shift = field_.noise_shift(middle);
     beam.radius0 = swept.shift;
@@ -80,7 +107,7 @@ std::optional<CellBeam> CellBeams::around(const ScreenCell& cell) const {
     beam.noise_radius = swept.noise;
     beam.limit = limit_ + result.shift;
     if (std::isfinite(bounding_ball_)) {
-        const double entry = enters(beam, std::atan(cone.tangent));
+        const double entry = enters(beam, half_angle, swept.eye_shift);
         beam.start = entry * result.cosine;
         beam.limit = std::min(beam.limit, glm::length(beam.origin) + bounding_ball_ + swept.shift);
     }
@@ -90,11 +117,11 @@ std::optional<CellBeam> CellBeams::around(const ScreenCell& cell) const {
 }
 
 double CellBeams::blur(const scene::TimeSpan& time) const {
-    const Sweep swept = sweep(0.5 * (time.last - time.first));
-    const double distance = std::isfinite(bounding_ball_)
-                                ? std::max(eye_distance_ - bounding_ball_, 0.01 * eye_distance_)
-                                : std::max(eye_distance_, 1e-3);
-    return 2.0 * ((swept.shift + swept.noise) / std::max(distance, 1e-300) + swept.angle) / pixel_angle_;
+    const double x = 0.5 * film_.width, y = 0.5 * film_.height;
+    const std::optional<Sweep> swept = sweep({x, y, 1.0, time}, camera_);
+    const double pixel = camera_.ray(x, y).pixel_angle;
+    if (!swept) return 1.0 / pixel;
+    return 2.0 * ((swept->shift + swept->noise) / typical_distance_ + swept->angle) / pixel;
 }
 
 }  // namespace strata::render

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "src/render/screen_cells.h"
+#include "src/scene/camera_path.h"
 #include "src/scene/scene.h"
 #include "src/trace/beam.h"
 #include "src/trace/camera.h"
@@ -22,7 +23,7 @@ struct CellBeam {
 
 class CellBeams {
   public:
-    CellBeams(const scene::Scene& scene, const trace::Camera& camera, const trace::Placement& placement,
+    CellBeams(const scene::Scene& scene, const scene::CameraPath& path, const trace::Placement& placement,
               const trace::Field& field);
 
     // In the surface's coordinates. None where the cone would be too wide.
@@ -34,21 +35,25 @@ class CellBeams {
   private:
     // How rays of the same (u, v) at other times than the middle of an interval differ.
     struct Sweep {
-        double shift = 0.0;  // of every point that can be solid
-        double angle = 0.0;  // of directions, radians
-        double noise = 0.0;  // of the noise
+        double shift = 0.0;      // of every point that can be solid
+        double angle = 0.0;      // of directions, radians
+        double noise = 0.0;      // of the noise
+        double eye_shift = 0.0;  // what of `shift` is the eye's way towards or from the surface
     };
-    Sweep sweep(double half_seconds) const;
-    double enters(const trace::Beam& beam, double angle) const;
+    std::optional<Sweep> sweep(const ScreenCell& cell, const trace::Camera& camera) const;
+    double enters(const trace::Beam& beam, double angle, double eye_shift) const;
 
     const scene::Surface& surface_;
-    const trace::Camera& camera_;
+    const scene::CameraPath& path_;
+    scene::Film film_;
+    bool camera_moves_;
+    trace::Camera camera_;  // at the shutter's middle
     const trace::Placement& placement_;
     const trace::Field& field_;
     double limit_;          // of rays, in the surface's units
     double bounding_ball_;  // radius around the surface's origin that holds all that is solid; infinite where none does
     double eye_distance_;   // from the surface's origin, in its units
-    double pixel_angle_;    // at the picture's centre
+    double typical_distance_;  // from the eye to what it sees, in the surface's units
     double spin_rad_per_s_;
 };
 

@@ -54,6 +54,9 @@ class ImageFunction {
     // Thread-safe. counters belong to the caller.
     virtual void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const = 0;
 
+    // How many samples to hand over at once: enough to amortise the call, few enough to stop soon when cancelled.
+    virtual std::size_t batch_samples() const { return 2048; }
+
     // The same radiance, and what each sample cost: nothing, unless a function traces.
     virtual void evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance,
                                      std::span<SampleCost> costs, Counters& counters) const;

@@ -25,17 +25,17 @@ void RenderContext::run(std::int64_t count, const std::function<void(Worker&, st
 }
 
 bool RenderContext::evaluate(Worker& worker, std::span<glm::vec3> radiance) const {
-    const std::size_t count = worker.samples.u.size();
+    const std::size_t count = worker.samples.u.size(), batch = image.batch_samples();
     if (options.with_costs) worker.costs.resize(count);
-    for (std::size_t first = 0; first < count; first += kBatchSamples) {
+    for (std::size_t first = 0; first < count; first += batch) {
         if (cancelled()) return false;
-        const std::size_t size = std::min(kBatchSamples, count - first);
-        const SampleBatch batch = worker.samples.batch(first, size);
+        const std::size_t size = std::min(batch, count - first);
+        const SampleBatch part = worker.samples.batch(first, size);
         if (options.with_costs) {
             const std::span<SampleCost> costs = std::span(worker.costs).subspan(first, size);
-            image.evaluate_with_costs(batch, radiance.subspan(first, size), costs, worker.counters);
+            image.evaluate_with_costs(part, radiance.subspan(first, size), costs, worker.counters);
         } else {
-            image.evaluate(batch, radiance.subspan(first, size), worker.counters);
+            image.evaluate(part, radiance.subspan(first, size), worker.counters);
         }
         worker.counters.rays += size;
     }
@@ -53,7 +53,7 @@ glm::vec2 RenderContext::mean_cost(const Worker& worker, std::size_t owner) cons
 }
 
 std::size_t RenderContext::owners_a_batch() const {
-    return std::max<std::size_t>(1, kBatchSamples / static_cast<std::size_t>(estimator.sample_count()));
+    return std::max<std::size_t>(1, image.batch_samples() / static_cast<std::size_t>(estimator.sample_count()));
 }
 
 void RenderContext::finish(RenderResult& result) const {

@@ -11,9 +11,6 @@
 
 namespace strata::render {
 
-// Samples handed to the image function at once: enough to amortise the call, few enough to stop soon when cancelled.
-inline constexpr std::size_t kBatchSamples = 65536;
-
 // Of one thread at a time; buffers are kept from tile to tile.
 struct alignas(64) Worker {
     SampleSet samples;

@@ -48,9 +48,9 @@ ScreenHierarchy hierarchy(const scene::Scene& scene, const CellBeams& around) {
 
 }  // namespace
 
-ScreenBeams::ScreenBeams(const scene::Scene& scene, const trace::Camera& camera, const trace::Placement& placement,
+ScreenBeams::ScreenBeams(const scene::Scene& scene, const scene::CameraPath& path, const trace::Placement& placement,
                          const trace::Field& field)
-    : around_(scene, camera, placement, field), tracer_(field), hierarchy_(hierarchy(scene, around_)) {}
+    : around_(scene, path, placement, field), tracer_(field), hierarchy_(hierarchy(scene, around_)) {}
 
 // The cells of a level in every node, with their beams; where there is no beam the parent's end is handed on.
 void ScreenBeams::split(int level, BeamedSamples& out) const {

@@ -42,7 +42,7 @@ struct BeamedSamples {
 
 class ScreenBeams {
   public:
-    ScreenBeams(const scene::Scene& scene, const trace::Camera& camera, const trace::Placement& placement,
+    ScreenBeams(const scene::Scene& scene, const scene::CameraPath& path, const trace::Placement& placement,
                 const trace::Field& field);
 
     void trace(const SampleBatch& batch, BeamedSamples& out, trace::TraceCounters& counters) const;

@@ -61,17 +61,18 @@ std::uint64_t rank_of(std::vector<SunlitCells::Index>& tops, const SunlitCells::
 
 }  // namespace
 
-SunBeams::SunBeams(const trace::Field& field, const glm::dvec3& to_sun)
+SunBeams::SunBeams(const trace::Field& field, const glm::dvec3& to_sun, const glm::dvec3& noise_shift)
     : tracer_(field),
       to_sun_(to_sun),
       a_(across(to_sun)),
       b_(glm::cross(to_sun, a_)),
+      noise_shift_(noise_shift),
       top_side_(coarsest_side(field)),
       amplitude_(field.amplitude()) {
     const double ball = bounding_ball(field);
     const bool is_bounded = std::isfinite(ball);
     bounding_ball_ = is_bounded ? ball : 0.0;
-    usable_ = !field.octaves().empty() && !field.drifts() && (is_bounded || to_sun.y > kLeastRise);
+    usable_ = !field.octaves().empty() && (is_bounded || to_sun.y > kLeastRise);
 }
 
 int SunBeams::level_of(double spacing) const {
@@ -113,6 +114,7 @@ trace::Beam SunBeams::beam(const SunlitCells& cells, std::uint64_t code, int lev
     trace::Beam beam;
     beam.radius0 = std::sqrt(0.5) * side * kPad + slack;
     beam.direction = -to_sun_;
+    beam.noise_shift = noise_shift_;
     double depth = 0.0;
     if (bounding_ball_ > 0.0) {
         const double reach = bounding_ball_ + slack;

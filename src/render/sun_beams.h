@@ -38,8 +38,8 @@ struct SunlitCells {
 
 class SunBeams {
   public:
-    // to_sun: of unit length, in the surface's coordinates.
-    SunBeams(const trace::Field& field, const glm::dvec3& to_sun);
+    // to_sun: of unit length, in the surface's coordinates. noise_shift: the field's, of all rays.
+    SunBeams(const trace::Field& field, const glm::dvec3& to_sun, const glm::dvec3& noise_shift);
 
     // Whether all rays towards the sun leave the surface for good.
     bool usable() const { return usable_; }
@@ -58,7 +58,8 @@ class SunBeams {
 
     trace::BeamTracer tracer_;
     glm::dvec3 to_sun_, a_, b_;  // an orthonormal frame
-    double top_side_ = 1.0;      // of the coarsest cells
+    glm::dvec3 noise_shift_;
+    double top_side_ = 1.0;  // of the coarsest cells
     double amplitude_ = 0.0;
     double bounding_ball_ = 0.0;  // 0: a height field
     bool usable_ = false;

@@ -92,9 +92,14 @@ SurfaceImage::SurfaceImage(const scene::Scene& scene, Tracer tracer, std::uint32
       samples_a_side_(scene.sampling.estimator == scene::EstimatorKind::none ? 1 : scene.sampling.N),
       sun_direction_(glm::normalize(scene.sun.direction)) {
     if (tracer_ != Tracer::fast) return;
-    if (!path_.moves()) beams_.emplace(scene_, camera_, placement_, field_);
-    if (placement_.moves() || !scene::needs_shadow_rays(scene_.sun)) return;
-    sun_beams_.emplace(field_, trace::Placement::direction_to_local(placement_.orientation(0.0), sun_direction_));
+    beams_.emplace(scene_, path_, placement_, field_);
+    if (!scene::needs_shadow_rays(scene_.sun)) return;
+    // The sun's beams are of one instant of the surface.
+    if (scene::needs_time_samples(scene_) && (placement_.moves() || field_.drifts())) return;
+    const scene::TimeSpan shutter = scene::open_shutter(scene_);
+    const double time = 0.5 * (shutter.first + shutter.last);
+    sun_beams_.emplace(field_, trace::Placement::direction_to_local(placement_.orientation(time), sun_direction_),
+                       field_.noise_shift(time));
     if (!sun_beams_->usable()) sun_beams_.reset();
 }
 

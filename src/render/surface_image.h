@@ -34,6 +34,9 @@ class SurfaceImage final : public ImageFunction {
     void evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance, std::span<SampleCost> costs,
                              Counters& counters) const override;
 
+    // Beams are for many rays.
+    std::size_t batch_samples() const override { return beams_ ? 65536 : 2048; }
+
     const trace::Field& field() const { return field_; }
     const trace::Placement& placement() const { return placement_; }
 

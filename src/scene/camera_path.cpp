@@ -110,6 +110,10 @@ std::size_t CameraPath::interval_at(double t) const {
 }
 
 CameraPath::Pose CameraPath::pose(double t) const {
+    if (knots_.empty()) {
+        const glm::dvec3 &x = camera_.position, &to = camera_.look_at;
+        return {x.x, x.y, x.z, to.x, to.y, to.z, camera_.fov_deg};
+    }
     if (t <= knots_.front().time_s) return knots_.front().value;
     if (t >= knots_.back().time_s) return knots_.back().value;
     const std::size_t interval = interval_at(t);
@@ -146,14 +150,14 @@ bool CameraPath::moves_during(const TimeSpan& span) const {
     return false;
 }
 
-std::vector<glm::dvec3> CameraPath::position_hull(const TimeSpan& span) const {
-    std::vector<glm::dvec3> hull{at(span.first).position, at(span.last).position};
+std::vector<glm::dvec3> CameraPath::hull(const TimeSpan& span, glm::dvec3 (*of)(const Pose&)) const {
+    std::vector<glm::dvec3> hull{of(pose(span.first)), of(pose(span.last))};
     for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
         const double begin = knots_[i].time_s, end = knots_[i + 1].time_s;
         if (end <= span.first || begin >= span.last) continue;
         const Cubic p = cubic(i);
         Points positions;
-        for (std::size_t k = 0; k < 4; ++k) positions[k] = {p[k][0], p[k][1], p[k][2]};
+        for (std::size_t k = 0; k < 4; ++k) positions[k] = of(p[k]);
         const double u = std::clamp((span.first - begin) / (end - begin), 0.0, 1.0);
         const double v = std::clamp((span.last - begin) / (end - begin), 0.0, 1.0);
         for (const glm::dvec3& x : part(positions, u, v)) hull.push_back(x);

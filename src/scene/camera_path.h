@@ -40,7 +40,13 @@ class CameraPath {
     Camera at(double t) const;
 
     // Points whose convex hull holds every position in that time.
-    std::vector<glm::dvec3> position_hull(const TimeSpan& span) const;
+    std::vector<glm::dvec3> position_hull(const TimeSpan& span) const { return hull(span, position_of); }
+
+    // The same of look_at - position.
+    std::vector<glm::dvec3> view_hull(const TimeSpan& span) const { return hull(span, view_of); }
+
+    // The same of (fov_deg, 0, 0).
+    std::vector<glm::dvec3> fov_hull(const TimeSpan& span) const { return hull(span, fov_of); }
 
     // The first time found, if any, at which position and look_at are closer than `least`. Every time is covered unless
     // they stay within rounding of that distance for long.
@@ -54,6 +60,11 @@ class CameraPath {
         Pose value, slope;
     };
     using Cubic = std::array<Pose, 4>;  // Bezier's control points
+
+    static glm::dvec3 position_of(const Pose& p) { return {p[0], p[1], p[2]}; }
+    static glm::dvec3 view_of(const Pose& p) { return glm::dvec3(p[3], p[4], p[5]) - position_of(p); }
+    static glm::dvec3 fov_of(const Pose& p) { return {p[6], 0.0, 0.0}; }
+    std::vector<glm::dvec3> hull(const TimeSpan& span, glm::dvec3 (*of)(const Pose&)) const;
 
     Pose slope_at(std::size_t knot) const;
     Cubic cubic(std::size_t interval) const;

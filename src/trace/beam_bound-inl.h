@@ -34,11 +34,11 @@ HWY_INLINE BeamBounds no_beam_bounds() {
 
 // Adds the bound that is least at the end of the hinted step for one octave.
 // kLoose: the point's displacement in the noise's domain need not be one along the axis and one across it.
-template <bool kPlanar, bool kDrifts>
+template <bool kPlanar, bool kDriftsInTime>
 HWY_INLINE BeamBounds add_octave_beam(const BeamBounds& sum, const TracePlan& plan, const TraceOctave& octave,
                                       const OctaveSample& n, FloatVec dv, const BeamSpan& span,
                                       hn::Mask<FloatTag> use) {
-    constexpr bool kLoose = kPlanar || kDrifts;
+    constexpr bool kLoose = kPlanar || kDriftsInTime;
     const FloatTag d;
     const FloatVec amplitude = hn::IfThenElseZero(use, hn::Set(d, octave.amplitude)), wave = hn::Set(d, octave.wave);
     const FloatVec peak = hn::Set(d, plan.peak), half = hn::Set(d, plan.half_bend);

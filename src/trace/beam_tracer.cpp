@@ -1,5 +1,7 @@
 #include "src/trace/beam_tracer.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/trace/beam_tracer.cpp"
 #include <hwy/foreach_target.h>
@@ -90,15 +92,15 @@ HWY_INLINE FloatVec evaluate_beam(const TracePlan& plan, const Field& field, con
 }
 
 // The longest step that is certified to keep the whole beam outside the surface, by bounds chosen for span.ahead.
-// noise_radius: how much of span.radius is the drifting noise's own.
-template <SurfaceKind kKind, bool kDrifts>
+// noise_radius: how much of span.radius is the drifting noise's own; kLoose: it is not 0.
+template <SurfaceKind kKind, bool kLoose>
 HWY_INLINE FloatVec solve_beam(const TracePlan& plan, const BeamCache& cache, const BeamPoint& at, const BeamSpan& span,
                                FloatVec noise_radius, FloatVec* slope) {
     const FloatTag d;
     BeamBounds bounds = no_beam_bounds();
     for (std::size_t k = 0; k < cache.count; ++k) {
-        bounds = add_octave_beam<kIsPlanar<kKind>, kDrifts>(bounds, plan, plan.octaves[k], cache.sample[k],
-                                                            cache.slope[k], span, hn::Gt(cache.used[k], hn::Zero(d)));
+        bounds = add_octave_beam<kIsPlanar<kKind>, kLoose>(bounds, plan, plan.octaves[k], cache.sample[k],
+                                                           cache.slope[k], span, hn::Gt(cache.used[k], hn::Zero(d)));
     }
     // The gradient across the axis, componentwise so that nothing cancels. Drift also leads along the axis.
     const FloatPoint gradient = {hn::Sub(at.base_gradient.x, bounds.gradient.x),
@@ -107,13 +109,13 @@ HWY_INLINE FloatVec solve_beam(const TracePlan& plan, const BeamCache& cache, co
     const FloatVec along = dot(gradient, at.axis);
     const FloatPoint across = {hn::NegMulAdd(along, at.axis.x, gradient.x), hn::NegMulAdd(along, at.axis.y, gradient.y),
                                hn::NegMulAdd(along, at.axis.z, gradient.z)};
-    const FloatPoint& sideways = kDrifts ? gradient : across;
+    const FloatPoint& sideways = kLoose ? gradient : across;
     const FloatVec error = hn::Set(d, plan.slope_error);
     const FloatVec pull =
         hn::MulAdd(hn::Sqrt(dot(sideways, sideways)), hn::Set(d, static_cast<float>(kRoundUp)), error);
     FloatVec start = hn::Sub(at.certain, hn::MulAdd(pull, span.radius, bounds.drop));
     // The base does not drift: |grad base| <= 1 undoes what `pull` assumed.
-    if constexpr (kDrifts) start = hn::NegMulAdd(noise_radius, hn::Set(d, static_cast<float>(kRoundUp)), start);
+    if constexpr (kLoose) start = hn::NegMulAdd(noise_radius, hn::Set(d, static_cast<float>(kRoundUp)), start);
     const FloatVec base_slope = hn::Sub(hn::Sub(dot(at.base_gradient, at.axis), error), hn::Mul(pull, span.spread));
     const FloatVec root = first_root(start, hn::MulAdd(base_slope, span.ahead, bounds.slope), bounds.bend);
     *slope = along;
@@ -142,7 +144,7 @@ HWY_INLINE void take_beam(BeamPacket& packet, std::size_t lane, const Beam& beam
 }
 
 // One step of every active lane; those that gained too little, or passed their limit, report and become idle.
-template <SurfaceKind kKind, bool kDrifts>
+template <SurfaceKind kKind, bool kDrifts, bool kLoose>
 HWY_INLINE void step_beams(const Field& field, const TracePlan& plan, BeamPacket& packet, std::span<BeamEnd> ends,
                            TraceCounters& counters) {
     const FloatTag d;
@@ -161,12 +163,12 @@ HWY_INLINE void step_beams(const Field& field, const TracePlan& plan, BeamPacket
     const BeamPoint at{to_float(direction), base_gradient_at<kKind>(x), certain};
     BeamSpan span{hint, hn::Mul(hint, speed), radius, hn::Mul(to_float(spread), up)};
     FloatVec slope;
-    const FloatVec first = solve_beam<kKind, kDrifts>(plan, cache, at, span, noise_radius, &slope);
+    const FloatVec first = solve_beam<kKind, kLoose>(plan, cache, at, span, noise_radius, &slope);
     const FloatVec inverse_lipschitz = hn::Set(d, plan.inverse_lipschitz);
     const FloatVec least = hn::Sub(hn::Mul(certain, inverse_lipschitz), radius);
     span.ahead = hn::Min(hn::Max(hn::Max(first, least_gain), least), hn::Set(d, 1e15f));
     span.along = hn::Mul(span.ahead, speed);
-    const FloatVec safe = hn::Max(first, solve_beam<kKind, kDrifts>(plan, cache, at, span, noise_radius, &slope));
+    const FloatVec safe = hn::Max(first, solve_beam<kKind, kLoose>(plan, cache, at, span, noise_radius, &slope));
     hn::Store(hn::Min(hn::Max(safe, hn::Max(least_gain, hn::Set(d, 1e-30f))), hn::Set(d, 1e15f)), d, packet.hint);
 
     alignas(HWY_MAX_BYTES) double clear[kMaxLanes];
@@ -188,7 +190,7 @@ HWY_INLINE void step_beams(const Field& field, const TracePlan& plan, BeamPacket
     }
 }
 
-template <SurfaceKind kKind, bool kDrifts>
+template <SurfaceKind kKind, bool kDrifts, bool kLoose>
 HWY_NOINLINE void trace_beams_of(const Field& field, const TracePlan& plan, std::span<const Beam> beams,
                                  std::span<BeamEnd> ends, TraceCounters& counters) {
     const std::size_t lanes = hn::Lanes(FloatTag());
@@ -206,18 +208,22 @@ HWY_NOINLINE void trace_beams_of(const Field& field, const TracePlan& plan, std:
             }
         }
         if (packet.active_count == 0) return;
-        step_beams<kKind, kDrifts>(field, plan, packet, ends, counters);
+        step_beams<kKind, kDrifts, kLoose>(field, plan, packet, ends, counters);
     }
 }
 
 template <SurfaceKind kKind>
 void trace_beams_kind(const Field& field, const TracePlan& plan, std::span<const Beam> beams, std::span<BeamEnd> ends,
                       TraceCounters& counters) {
-    if (field.drifts()) {
-        trace_beams_of<kKind, true>(field, plan, beams, ends, counters);
-    } else {
-        trace_beams_of<kKind, false>(field, plan, beams, ends, counters);
-    }
+    if (!field.drifts()) return trace_beams_of<kKind, false, false>(field, plan, beams, ends, counters);
+    // Beams of an instant and of a time are not mixed, so that a beam's end is its own.
+    const auto has_time = [](const Beam& beam) { return beam.noise_radius > 0.0; };
+    const auto middle = std::ranges::find_if_not(beams, has_time);
+    if (middle == beams.end()) return trace_beams_of<kKind, true, true>(field, plan, beams, ends, counters);
+    if (std::ranges::none_of(beams, has_time))
+        return trace_beams_of<kKind, true, false>(field, plan, beams, ends, counters);
+    for (std::size_t i = 0; i < beams.size(); ++i)
+        trace_beams_kind<kKind>(field, plan, beams.subspan(i, 1), ends.subspan(i, 1), counters);
 }
 
 void TraceBeams(const Field& field, const TracePlan& plan, std::span<const Beam> beams, std::span<BeamEnd> ends,

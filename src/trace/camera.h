@@ -31,6 +31,11 @@ class Camera {
         return {along / glm::sqrt(squared), pixel_ / squared};
     }
 
+    // Where the ray through (u, v) meets the plane at unit depth, from its middle, right and up.
+    glm::dvec2 on_plane(double u, double v) const {
+        return {(u - 0.5 * width_) * pixel_, (0.5 * height_ - v) * pixel_};
+    }
+
     // Around the rays through a square of the screen, given by its corner and side.
     CameraCone cone(double u, double v, double side) const;
 

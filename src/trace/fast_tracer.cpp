@@ -269,8 +269,7 @@ HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, 
         }
         packet.s_outside[lane] = outside[lane];
         packet.relax[lane] = std::min(packet.relax[lane] + kRelaxGain, kMostRelax);
-        const double room = packet.end[lane] - landing[lane];
-        packet.over[lane] = room > over[lane] ? over[lane] : 0.0f;
+        packet.over[lane] = over[lane];
         packet.s[lane] = landing[lane] + static_cast<double>(packet.over[lane]);
     }
 }

@@ -17,7 +17,18 @@ using scene::SurfaceKind;
 
 namespace {
 
-// 0: at rest; 1: spinning; 2: drifting; 3: both.
+// The camera flies, looks about and zooms, a little or much.
+void add_keys(Random& random, scene::Camera& camera) {
+    const double size = log_uniform(random, 1e-3, 1.0) * glm::distance(camera.position, camera.look_at);
+    camera.interpolation = random() % 2 == 0 ? scene::Interpolation::smooth : scene::Interpolation::linear;
+    for (const double time_s : {-0.5, 1.0, 2.5, 4.5}) {
+        camera.keys.push_back({.time_s = time_s,
+                               .position = camera.position + uniform(random, 0.0, 0.4) * size * unit_vector(random),
+                               .look_at = camera.look_at + uniform(random, 0.0, 0.4) * size * unit_vector(random),
+                               .fov_deg = camera.fov_deg * uniform(random, 0.8, 1.0)});
+    }
+}
+// A sum of 1: spinning, 2: drifting, 4: the camera moving.
 scene::Scene random_scene(Random& random, SurfaceKind kind, int motion) {
     scene::Scene scene;
     scene.film = {.width = 1 + static_cast<int>(random() % 2000), .height = 1 + static_cast<int>(random() % 2000)};
@@ -45,6 +56,8 @@ scene::Scene random_scene(Random& random, SurfaceKind kind, int motion) {
     scene.camera.up = unit_vector(random);
     scene.camera.fov_deg = random() % 3 == 0 ? uniform(random, 100.0, 175.0) : log_uniform(random, 0.5, 100.0);
     scene.camera.far = log_uniform(random, 2.0, 100.0) * size;
+    scene.shutter = {.fps = 25.0, .open_s = 4.0, .frame = 0};
+    if ((motion & 4) != 0) add_keys(random, scene.camera);
     return scene;
 }
 
@@ -54,7 +67,7 @@ ScreenCell random_cell(Random& random, const scene::Film& film) {
     cell.side = std::exp2(std::round(uniform(random, -6.0, 8.0)));
     cell.x = cell.side * std::floor(uniform(random, -0.1, 1.1) * film.width / cell.side);
     cell.y = cell.side * std::floor(uniform(random, -0.1, 1.1) * film.height / cell.side);
-    const double middle = uniform(random, -2.0, 2.0), half = log_uniform(random, 1e-6, 0.2);
+    const double middle = uniform(random, 0.2, 3.8), half = log_uniform(random, 1e-6, 0.2);
     cell.time = {middle - half, middle + half};
     return cell;
 }
@@ -73,13 +86,10 @@ double within(Random& random, double first, double length) {
 
 struct Scenery {
     explicit Scenery(const scene::Scene& s)
-        : scene(s),
-          camera(s.camera, s.film),
-          placement(s.surface),
-          field(s.surface),
-          beams(scene, camera, placement, field) {}
+        : scene(s), path(s.camera), placement(s.surface), field(s.surface), beams(scene, path, placement, field) {}
 
     trace::Ray ray(double u, double v, double t) const {
+        const trace::Camera camera(path.at(t), scene.film);
         const trace::Ray world{
             .origin = camera.position(), .direction = camera.ray(u, v).direction, .limit = scene.camera.far};
         return placement.to_local(placement.orientation(t), world, field.noise_shift(t));
@@ -103,7 +113,7 @@ struct Scenery {
     }
 
     scene::Scene scene;
-    trace::Camera camera;
+    scene::CameraPath path;
     trace::Placement placement;
     trace::Field field;
     CellBeams beams;
@@ -170,7 +180,7 @@ void measure(Random& random, const Scenery& scenery, const ScreenCell& cell, Exc
 void check_kind(SurfaceKind kind, int motion) {
     // Of lengths that are of the order of `size`: some roundings.
     constexpr double kRounding = 1e-14;
-    Random random(91 + 4 * static_cast<std::uint64_t>(kind) + static_cast<std::uint64_t>(motion));
+    Random random(91 + 8 * static_cast<std::uint64_t>(kind) + static_cast<std::uint64_t>(motion));
     Excess worst;
     for (int trial = 0; trial < 250; ++trial) {
         const Scenery scenery(random_scene(random, kind, motion));
@@ -208,6 +218,12 @@ TEST_CASE("rays through a cell at all of its times stay in its beam, with noise 
     for (const SurfaceKind kind : kKinds) {
         check_kind(kind, 2);
         check_kind(kind, 3);
+    }
+}
+
+TEST_CASE("rays through a cell at all of its times stay in its beam, of a camera that moves, over all else that may") {
+    for (const SurfaceKind kind : kKinds) {
+        for (const int motion : {4, 5, 6, 7}) check_kind(kind, motion);
     }
 }
 

@@ -63,10 +63,19 @@ int differing(const Film& part, const Film& whole) {
     return count;
 }
 
-// All but executed_lanes, which counts idle lanes too.
+bool same_work(const PhaseCost& a, const PhaseCost& b) {
+    return a.noise_evaluations == b.noise_evaluations && a.steps == b.steps;
+}
+
+// All but that of beams, which the samples of a batch share, and executed_lanes, which counts idle lanes too.
 bool same_work(const Counters& a, const Counters& b) {
-    return a.rays == b.rays && a.shadow_rays == b.shadow_rays && a.hits == b.hits &&
-           a.unresolved_rays == b.unresolved_rays && a.noise_evaluations == b.noise_evaluations && a.steps == b.steps;
+    bool same = a.rays == b.rays && a.shadow_rays == b.shadow_rays && a.hits == b.hits &&
+                a.unresolved_rays == b.unresolved_rays;
+    for (const Phase phase : {Phase::rays, Phase::normals, Phase::shadows}) {
+        const auto i = static_cast<std::size_t>(phase);
+        same = same && same_work(a.phases[i], b.phases[i]);
+    }
+    return same;
 }
 
 struct Samples {

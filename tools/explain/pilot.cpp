@@ -11,7 +11,6 @@ namespace strata::tools {
 
 namespace {
 
-constexpr std::size_t kBatchSamples = 2048;  // as a render's
 constexpr std::int64_t kLeastRuns = 256;
 constexpr std::int64_t kLongestRun = 32;  // as wide as a render's tiles
 
@@ -55,7 +54,7 @@ PilotRun run_pilot(const render::ImageFunction& image, const render::EstimatorSe
     const render::Estimator estimator(coarse);
     const auto samples = static_cast<std::size_t>(estimator.sample_count());
     const std::vector<glm::ivec2> chosen = choose_owners(owners, static_cast<std::int64_t>(rays / samples));
-    const std::size_t batch = std::max<std::size_t>(1, kBatchSamples / samples);
+    const std::size_t batch = std::max<std::size_t>(1, image.batch_samples() / samples);
     PilotRun pilot;
     render::SampleSet set;
     std::vector<glm::vec3> radiance;
