@@ -34,7 +34,7 @@ struct SurfaceImage::Lit {
     double visibility = 1.0;
 };
 
-// What a chunk of samples needs on its way; one each call of evaluate(), its memory reused from chunk to chunk.
+// What a chunk of samples needs on its way; one each thread, its memory reused from chunk to chunk.
 struct SurfaceImage::Chunk {
     BeamedSamples beamed;
     std::vector<double> u, v, t;  // of samples in the order of their cells
@@ -162,7 +162,9 @@ void SurfaceImage::evaluate(const SampleBatch& samples, std::span<glm::vec3> rad
 void SurfaceImage::evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance,
                                        std::span<SampleCost> costs, Counters& counters) const {
     std::fill(costs.begin(), costs.end(), SampleCost{});
-    Chunk chunk;
+    thread_local Chunk chunk;  // fresh memory for every batch would cost as much as the shading
+    chunk.costs = {};
+    chunk.clear_samples();
     chunk.reserve(std::min(kChunk, samples.u.size()), field_.drifts(), scene::needs_shadow_rays(scene_.sun));
     if (beams_) return evaluate_beamed(samples, radiance, costs, chunk, counters);
     for (std::size_t begin = 0; begin < samples.u.size(); begin += kChunk) {

@@ -151,16 +151,23 @@ TEST_CASE("without shadows the noise is evaluated for camera rays and the normal
             std::vector<trace::Hit> hits(rays.size());
             trace::TraceCounters traced;
             image.trace(rays, hits, traced);
-            std::uint64_t normals = 0, found = 0;
+            std::uint64_t found = 0, missing = 0;
             for (const trace::Hit& hit : hits) {
                 if (hit.state != trace::HitState::hit) continue;
                 ++found;
-                normals += hit.on_bound ? 0 : 1;
+                missing += 5 - hit.octaves;
+                CHECK((!hit.on_bound || hit.octaves == 5));
             }
             CHECK(counters.hits == found);
-            CHECK(counters.steps == traced.steps);
-            CHECK(counters.noise_evaluations == traced.noise_evaluations + 5 * normals);
-            if (kind == SurfaceKind::isosurface) CHECK(normals < found);
+            const auto cost = [&](Phase phase) { return counters.phases[static_cast<std::size_t>(phase)]; };
+            for (const Phase phase : {Phase::sun_beams, Phase::shadows, Phase::shading}) {
+                CHECK(cost(phase).steps == 0);
+                CHECK(cost(phase).noise_evaluations == 0);
+            }
+            // Beams spare rays more than they take.
+            CHECK(counters.steps < traced.steps);
+            CHECK(counters.noise_evaluations < traced.noise_evaluations + missing);
+            CHECK(cost(Phase::normals).noise_evaluations <= 2 * missing);
         }
     }
 }
