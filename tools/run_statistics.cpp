@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "noise/simd_target.h"
 #include "src/image/output_file.h"
@@ -89,6 +92,43 @@ nlohmann::ordered_json passes_json(const PassStatistics& passes) {
             {"predicted_seconds", number_or_null(passes.predicted_seconds, passes.predicted_seconds > 0)}};
 }
 
+// The image function's phases, and `samples and film` for what it does not account for.
+std::vector<std::pair<std::string, render::PhaseCost>> phases(const RunStatistics& statistics) {
+    std::vector<std::pair<std::string, render::PhaseCost>> phases;
+    double rest_s = statistics.cpu_seconds;
+    for (std::size_t i = 0; i < render::kPhases; ++i) {
+        const render::PhaseCost& cost = statistics.counters.phases[i];
+        if (cost.seconds == 0.0) continue;
+        phases.emplace_back(render::name_of(static_cast<render::Phase>(i)), cost);
+        rest_s -= cost.seconds;
+    }
+    phases.push_back({"samples and film", {.seconds = std::max(rest_s, 0.0)}});
+    return phases;
+}
+
+nlohmann::ordered_json phases_json(const RunStatistics& statistics) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const auto& [name, cost] : phases(statistics)) {
+        json.push_back({{"phase", name},
+                        {"seconds", cost.seconds},
+                        {"share", cost.seconds / std::max(statistics.cpu_seconds, 1e-9)},
+                        {"steps", cost.steps},
+                        {"noise_evaluations", cost.noise_evaluations}});
+    }
+    return json;
+}
+
+std::string phases_summary(const RunStatistics& statistics) {
+    std::string text = "phases   ";
+    const char* separator = "";
+    for (const auto& [name, cost] : phases(statistics)) {
+        text += fmt::format("{}{} {:.0f} %", separator, name,
+                            100.0 * cost.seconds / std::max(statistics.cpu_seconds, 1e-9));
+        separator = ", ";
+    }
+    return text + "\n";
+}
+
 }  // namespace
 
 RunStatistics collect(const render::ProgressiveResult& result, const render::PassGoal& goal, const std::string& scene) {
@@ -124,6 +164,7 @@ std::string summary(const RunStatistics& statistics) {
         text += fmt::format("noise    {:.1f} evaluations a ray, shadow rays and normals included in the count\n",
                             static_cast<double>(c.noise_evaluations) / std::max(1.0, rays + shadow_rays));
     }
+    if (c.steps > 0) text += phases_summary(statistics);
     if (statistics.passes) text += passes_summary(*statistics.passes);
     text += fmt::format("memory   {:.0f} MB at most\n", static_cast<double>(statistics.peak_memory_bytes) / 1e6);
     return text;
@@ -144,7 +185,8 @@ void write_statistics(const std::filesystem::path& path, const RunStatistics& st
                                    {"steps", c.steps},
                                    {"seconds", statistics.seconds},
                                    {"cpu_seconds", statistics.cpu_seconds},
-                                   {"peak_memory_bytes", statistics.peak_memory_bytes}};
+                                   {"peak_memory_bytes", statistics.peak_memory_bytes},
+                                   {"phases", phases_json(statistics)}};
     if (!statistics.settings_mark.empty()) json["settings_mark"] = statistics.settings_mark;
     if (statistics.passes) json.update(passes_json(*statistics.passes));
     // A scene's file name need not be UTF-8.

@@ -4,6 +4,24 @@
 
 namespace strata::render {
 
+const char* name_of(Phase phase) {
+    switch (phase) {
+        case Phase::beams:
+            return "beams";
+        case Phase::rays:
+            return "rays";
+        case Phase::normals:
+            return "normals";
+        case Phase::sun_beams:
+            return "sun beams";
+        case Phase::shadows:
+            return "shadows";
+        case Phase::shading:
+            return "shading";
+    }
+    return "";
+}
+
 PhaseCost& PhaseCost::operator+=(const PhaseCost& other) {
     seconds += other.seconds;
     noise_evaluations += other.noise_evaluations;

@@ -17,6 +17,9 @@ namespace strata::render {
 enum class Phase { beams, rays, normals, sun_beams, shadows, shading };
 inline constexpr std::size_t kPhases = 6;
 
+// "sun beams".
+const char* name_of(Phase phase);
+
 struct PhaseCost {
     double seconds = 0.0;  // of one thread's time; depends on the machine, unlike all else here
     std::uint64_t noise_evaluations = 0;
