@@ -92,12 +92,12 @@ check_outputs() {
     expect '--quiet prints nothing' "$status: $output" '0: '
     expect 'each output is there' "$(echo t*)" 't.exr t.jpg t.tif twice.png'
     local missing='' key
-    for key in rays shadow_rays hits unresolved_rays noise_evaluations executed_lanes steps seconds cpu_seconds threads \
+    for key in rays shadow_rays hits unresolved_rays noise_evaluations executed_lanes steps seconds cpu_seconds threads phases \
         simd_target peak_memory_bytes scene version; do
         grep -q "^  \"$key\": ..*" s.json || missing+=" $key"
     done
     expect 'the statistics hold every key' "$missing" ''
-    expect 'the statistics count the rays of the crop' "$(grep '"rays"' s.json)" '  "rays": 120,'
+    expect 'the statistics count the rays of the crop' "$(grep '^  "rays"' s.json)" '  "rays": 120,'
 }
 
 check_rendering_again() {
