@@ -3,11 +3,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 #include "src/image/encode.h"
 #include "src/render/estimator.h"
 #include "src/render/make_image.h"
+#include "src/render/render.h"
 #include "src/scene/needs.h"
 #include "tools/explain/pilot.h"
 
@@ -39,16 +41,24 @@ double strip_memory(const render::Window& window) {
     return (kStripsInWork * kFilmBytes + kEncoderBytes) * strip_pixels;
 }
 
-// The program with its libraries, of which this process has as many; samples and rays on their way in each thread;
-// the strips; of several passes their sum, the pass in work and the one before it.
-double expected_memory(const render::Window& window, const render::Estimator& estimator, int threads, int passes) {
+// Samples, rays and beams on their way in a thread. A tile may be less than a batch.
+double worker_memory(const render::Estimator& estimator, std::size_t batch_samples) {
+    constexpr double kRaysBytes = 1.1e6, kSampleBytes = 200;
+    const double tile = std::pow(render::RenderOptions{}.tile, 2) * estimator.sample_count();
+    const double batch = static_cast<double>(batch_samples);
+    return kRaysBytes + kSampleBytes * (estimator.shared() ? batch : std::min(batch, tile));
+}
+
+// The program with its libraries, of which this process has as many; what is on its way in each thread; the strips; of
+// several passes their sum, the pass in work and the one before it.
+double expected_memory(const render::Window& window, const render::Estimator& estimator, std::size_t batch_samples,
+                       int threads, int passes) {
     constexpr double kSumBytes = 24;  // a pixel
-    constexpr double kWorkerBytes = 1.5e6;
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     const double pixels = 1.0 * window.width() * window.height();
-    return 1024.0 * static_cast<double>(usage.ru_maxrss) + kWorkerBytes * threads + strip_memory(window) +
-           (estimator.shared() ? shared_memory(window, estimator) : 0.0) +
+    return 1024.0 * static_cast<double>(usage.ru_maxrss) + worker_memory(estimator, batch_samples) * threads +
+           strip_memory(window) + (estimator.shared() ? shared_memory(window, estimator) : 0.0) +
            (passes > 1 ? (kSumBytes + 2 * kFilmBytes) * pixels : 0.0);
 }
 
@@ -98,9 +108,10 @@ Prediction predict(const scene::Scene& scene, const render::Window& window, cons
     Costs& costs = prediction.costs;
     costs.rays = count_rays(scene, window);
     leave_out(scene, costs);
-    costs.peak_memory_bytes = expected_memory(window, estimator, prediction.threads, settings.passes);
+    const auto image = render::make_image(scene, settings.tracer);
+    costs.peak_memory_bytes =
+        expected_memory(window, estimator, image->batch_samples(), prediction.threads, settings.passes);
     if (settings.with_pilot) {
-        const auto image = render::make_image(scene, settings.tracer);
         const PilotRun run =
             run_pilot(*image, sampling, owners_of(window, estimator), pilot_rays(costs.rays, settings.tracer));
         prediction.pilot = Pilot{run.counters.rays, run.cpu_seconds};
