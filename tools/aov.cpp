@@ -50,6 +50,7 @@ std::vector<Aov> parse_aovs(const std::string& text) {
 
 std::vector<std::string> aov_channels(const std::vector<Aov>& aovs) {
     std::vector<std::string> channels;
+    channels.reserve(aovs.size());
     for (const Aov aov : aovs) channels.push_back(name_of(aov) + ".Y");
     return channels;
 }

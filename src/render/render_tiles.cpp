@@ -102,6 +102,7 @@ class TiledStrips {
 
 std::vector<int> TiledStrips::parts(const StripLayout& layout) const {
     std::vector<int> parts;
+    parts.reserve(static_cast<std::size_t>(layout.count()));
     for (int strip = 0; strip < layout.count(); ++strip) {
         parts.push_back(static_cast<int>(tiles(layout, strip).count()));
     }

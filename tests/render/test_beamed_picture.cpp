@@ -148,7 +148,9 @@ double decoding_error(double s) { return 4.0 * 0x1p-24 * kHaze * std::exp(s / kH
 
 TEST_CASE("a sample has the same bits alone, in a batch, in a shuffled batch, and however batches are split") {
     Random random(61);
-    for (const auto& [name, scene] : scenes()) {
+    for (const auto& item : scenes()) {
+        const std::string& name = item.first;
+        const scene::Scene& scene = item.second;
         CAPTURE(name);
         const SurfaceImage image(scene, Tracer::fast);
         const Samples samples = random_samples(random, 1500, scene::open_shutter(scene));
@@ -189,7 +191,9 @@ TEST_CASE("a sample has the same bits alone, in a batch, in a shuffled batch, an
 
 TEST_CASE("the distances in a beamed picture are first hits within the tolerance, by the surface's definition") {
     Random random(62);
-    for (const auto& [name, still] : scenes()) {
+    for (const auto& item : scenes()) {
+        const std::string& name = item.first;
+        const scene::Scene& still = item.second;
         CAPTURE(name);
         const scene::Scene scene = telling_distance(still);
         const SurfaceImage image(scene, Tracer::fast);
@@ -227,7 +231,9 @@ TEST_CASE("the distances in a beamed picture are first hits within the tolerance
 
 TEST_CASE("the reference tracer sees what beams see: hits and misses, and distances within both tolerances") {
     Random random(63);
-    for (const auto& [name, still] : scenes()) {
+    for (const auto& item : scenes()) {
+        const std::string& name = item.first;
+        const scene::Scene& still = item.second;
         CAPTURE(name);
         scene::Scene scene = telling_distance(still);
         scene.surface.octaves = 3;  // its steps shrink with the sum of slopes
