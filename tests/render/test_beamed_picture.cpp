@@ -149,8 +149,8 @@ double decoding_error(double s) { return 4.0 * 0x1p-24 * kHaze * std::exp(s / kH
 TEST_CASE("a sample has the same bits alone, in a batch, in a shuffled batch, and however batches are split") {
     Random random(61);
     for (const auto& item : scenes()) {
-        const std::string& name = item.first;
-        const scene::Scene& scene = item.second;
+        const std::string& name = item.name;
+        const scene::Scene& scene = item.scene;
         CAPTURE(name);
         const SurfaceImage image(scene, Tracer::fast);
         const Samples samples = random_samples(random, 1500, scene::open_shutter(scene));
@@ -192,8 +192,8 @@ TEST_CASE("a sample has the same bits alone, in a batch, in a shuffled batch, an
 TEST_CASE("the distances in a beamed picture are first hits within the tolerance, by the surface's definition") {
     Random random(62);
     for (const auto& item : scenes()) {
-        const std::string& name = item.first;
-        const scene::Scene& still = item.second;
+        const std::string& name = item.name;
+        const scene::Scene& still = item.scene;
         CAPTURE(name);
         const scene::Scene scene = telling_distance(still);
         const SurfaceImage image(scene, Tracer::fast);
@@ -232,8 +232,8 @@ TEST_CASE("the distances in a beamed picture are first hits within the tolerance
 TEST_CASE("the reference tracer sees what beams see: hits and misses, and distances within both tolerances") {
     Random random(63);
     for (const auto& item : scenes()) {
-        const std::string& name = item.first;
-        const scene::Scene& still = item.second;
+        const std::string& name = item.name;
+        const scene::Scene& still = item.scene;
         CAPTURE(name);
         scene::Scene scene = telling_distance(still);
         scene.surface.octaves = 3;  // its steps shrink with the sum of slopes
