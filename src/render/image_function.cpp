@@ -8,6 +8,8 @@ const char* name_of(Phase phase) {
     switch (phase) {
         case Phase::beams:
             return "beams";
+        case Phase::windows:
+            return "windows";
         case Phase::rays:
             return "rays";
         case Phase::normals:

@@ -14,8 +14,8 @@ namespace strata::render {
 // Work done, exact and independent of threads. What beams do, that samples of a batch share, depends on the batches and
 // so on tiles and crop; as do executed_lanes, which count SIMD lanes that idle, too.
 // Where the work of a ray-cast surface is done.
-enum class Phase { beams, rays, normals, sun_beams, shadows, shading };
-inline constexpr std::size_t kPhases = 6;
+enum class Phase { beams, windows, rays, normals, sun_beams, shadows, shading };
+inline constexpr std::size_t kPhases = 7;
 
 // "sun beams".
 const char* name_of(Phase phase);

@@ -50,7 +50,13 @@ ScreenHierarchy hierarchy(const scene::Scene& scene, const CellBeams& around) {
 
 ScreenBeams::ScreenBeams(const scene::Scene& scene, const scene::CameraPath& path, const trace::Placement& placement,
                          const trace::Field& field)
-    : around_(scene, path, placement, field), tracer_(field), hierarchy_(hierarchy(scene, around_)) {}
+    : around_(scene, path, placement, field),
+      tracer_(field),
+      windows_(
+          field,
+          scene.sampling.tolerance *
+              trace::Camera(path.at(0.0), scene.film).ray(0.5 * scene.film.width, 0.5 * scene.film.height).pixel_angle),
+      hierarchy_(hierarchy(scene, around_)) {}
 
 // The cells of a level in every node, with their beams; where there is no beam the parent's end is handed on.
 void ScreenBeams::split(int level, BeamedSamples& out) const {
@@ -92,7 +98,12 @@ void ScreenBeams::keep(int level, BeamedSamples& out) const {
         if (level > 0 && !misses) {
             out.nodes.push_back(node);
         } else {
-            out.cells.push_back({node.first, node.last, misses, node.reached, node.hint});
+            BeamedCell cell{node.first, node.last, misses, node.reached, node.hint};
+            if (!misses && out.beams[i].limit > 0.0) {
+                cell.leaf = static_cast<std::int32_t>(out.leaves.size());
+                out.leaves.push_back({out.cell_beams[i], out.ends[i].s, out.ends[i].slope});
+            }
+            out.cells.push_back(cell);
         }
     }
 }
@@ -100,6 +111,7 @@ void ScreenBeams::keep(int level, BeamedSamples& out) const {
 void ScreenBeams::trace(const SampleBatch& batch, BeamedSamples& out, trace::TraceCounters& counters) const {
     out.samples.sort(hierarchy_, batch.u, batch.v, batch.t);
     out.cells.clear();
+    out.leaves.clear();
     out.nodes.assign(1, {0, static_cast<std::uint32_t>(batch.u.size()), 0.0, 0.0f});
     for (int level = hierarchy_.levels() - 1; level >= 0; --level) {
         split(level, out);
@@ -108,6 +120,18 @@ void ScreenBeams::trace(const SampleBatch& batch, BeamedSamples& out, trace::Tra
         keep(level, out);
     }
     std::ranges::sort(out.cells, {}, &BeamedCell::first);
+}
+
+void ScreenBeams::open_windows(const BeamedSamples& beamed, std::span<const BeamedCell> cells, WindowChains& out,
+                               trace::TraceCounters& counters) const {
+    out.chains.clear();
+    for (const BeamedCell& cell : cells) {
+        WindowChain& chain = out.chains.emplace_back();
+        if (cell.leaf < 0) continue;
+        const BeamedSamples::Leaf& leaf = beamed.leaves[static_cast<std::size_t>(cell.leaf)];
+        chain = {.cell = &leaf.cell, .s = leaf.end, .slope = leaf.slope};
+    }
+    windows_.build(out, counters);
 }
 
 }  // namespace strata::render

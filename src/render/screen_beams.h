@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/render/cell_beam.h"
+#include "src/render/cell_windows.h"
 #include "src/render/image_function.h"
 #include "src/render/screen_cells.h"
 #include "src/trace/beam_tracer.h"
@@ -19,9 +20,10 @@ namespace strata::render {
 struct BeamedCell {
     std::uint32_t first = 0;  // samples.order[first, last)
     std::uint32_t last = 0;
-    bool misses = false;  // its rays meet nothing
-    double start = 0.0;   // its rays are free up to this distance
-    float hint = 0.0f;    // step length to go on with
+    bool misses = false;     // its rays meet nothing
+    double start = 0.0;      // its rays are free up to this distance
+    float hint = 0.0f;       // step length to go on with
+    std::int32_t leaf = -1;  // of `leaves`; below 0 where there is none
 };
 
 // Memory is reused from call to call.
@@ -38,6 +40,14 @@ struct BeamedSamples {
     std::vector<CellBeam> cell_beams;
     std::vector<trace::Beam> beams;
     std::vector<trace::BeamEnd> ends;
+
+    // The finest cells' beams, where they ended.
+    struct Leaf {
+        CellBeam cell;
+        double end;
+        double slope;
+    };
+    std::vector<Leaf> leaves;
 };
 
 class ScreenBeams {
@@ -47,12 +57,17 @@ class ScreenBeams {
 
     void trace(const SampleBatch& batch, BeamedSamples& out, trace::TraceCounters& counters) const;
 
+    // Windows for the rays of some cells.
+    void open_windows(const BeamedSamples& beamed, std::span<const BeamedCell> cells, WindowChains& out,
+                      trace::TraceCounters& counters) const;
+
   private:
     void split(int level, BeamedSamples& out) const;
     void keep(int level, BeamedSamples& out) const;
 
     CellBeams around_;
     trace::BeamTracer tracer_;
+    CellWindows windows_;
     ScreenHierarchy hierarchy_;
 };
 

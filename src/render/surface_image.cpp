@@ -9,6 +9,7 @@
 #include "shaders_cpu/sky.h"
 #include "shaders_cpu/terrain_material.h"
 #include "src/render/phase_meter.h"
+#include "src/render/surface_image_chunk.h"
 #include "src/scene/needs.h"
 #include "src/trace/reference_tracer.h"
 #include "src/trace/shadow_ray.h"
@@ -21,64 +22,6 @@ namespace {
 constexpr std::size_t kChunk = 4096;
 
 }  // namespace
-
-// A hit on its way to radiance, in the surface's coordinates.
-struct SurfaceImage::Lit {
-    std::size_t sample = 0;
-    glm::dvec3 normal{0.0};
-    glm::dvec3 up{0.0, 1.0, 0.0};
-    glm::dvec3 view{0.0};  // the ray's direction, as the sky lies
-    glm::dvec3 sun{0.0};
-    double height = 0.0;
-    double distance = 0.0;
-    double visibility = 1.0;
-};
-
-// What a chunk of samples needs on its way; one each thread, its memory reused from chunk to chunk.
-struct SurfaceImage::Chunk {
-    BeamedSamples beamed;
-    std::vector<double> u, v, t;  // of samples in the order of their cells
-    std::vector<double> start;    // up to where their rays are free; empty where that is not known
-    std::vector<float> hint;
-    std::vector<glm::vec3> radiance;
-    std::vector<trace::Ray> rays, shadow_rays;
-    std::vector<trace::Hit> hits, surface_hits, shadow_hits;
-    std::vector<glm::dvec3> view, sun, x, noise_shift;
-    std::vector<glm::vec3> normal;
-    std::vector<Lit> lit;
-    std::vector<std::size_t> shadow_owner;
-    std::vector<double> shadow_spacing;
-    SunlitCells sunlit;
-
-    void clear_samples() {
-        u.clear();
-        v.clear();
-        t.clear();
-        start.clear();
-        hint.clear();
-    }
-
-    std::vector<SampleCost> sample_costs;
-    std::span<SampleCost> costs;  // empty: not asked for
-
-    void add_cost(std::size_t sample, const trace::Hit& hit) {
-        if (costs.empty()) return;
-        costs[sample].steps += hit.steps;
-        costs[sample].noise_evaluations += hit.noise_evaluations;
-    }
-
-    // What is filled hit by hit would be copied over and over while it grows: 5 to 8 % of a render.
-    void reserve(std::size_t count, bool drifts, bool has_shadows) {
-        surface_hits.reserve(count);
-        x.reserve(count);
-        lit.reserve(count);
-        if (drifts) noise_shift.reserve(count);
-        if (!has_shadows) return;
-        shadow_rays.reserve(count);
-        shadow_owner.reserve(count);
-        shadow_spacing.reserve(count);
-    }
-};
 
 SurfaceImage::SurfaceImage(const scene::Scene& scene, Tracer tracer, std::uint32_t step_limit)
     : scene_(scene),
@@ -164,7 +107,7 @@ void SurfaceImage::evaluate_with_costs(const SampleBatch& samples, std::span<glm
     std::fill(costs.begin(), costs.end(), SampleCost{});
     thread_local Chunk chunk;  // fresh memory for every batch would cost as much as the shading
     chunk.costs = {};
-    chunk.clear_samples();
+    chunk.resize_samples(0);
     chunk.reserve(std::min(kChunk, samples.u.size()), field_.drifts(), scene::needs_shadow_rays(scene_.sun));
     if (beams_) return evaluate_beamed(samples, radiance, costs, chunk, counters);
     for (std::size_t begin = 0; begin < samples.u.size(); begin += kChunk) {
@@ -183,26 +126,48 @@ void SurfaceImage::evaluate_beamed(const SampleBatch& samples, std::span<glm::ve
     trace::TraceCounters traced;
     beams_->trace(samples, chunk.beamed, traced);
     meter.book(Phase::beams, traced);
-    const std::vector<std::uint32_t>& order = chunk.beamed.samples.order;
-    auto cell = chunk.beamed.cells.begin();
-    for (std::size_t begin = 0; begin < order.size(); begin += kChunk) {
-        const std::size_t end = std::min(begin + kChunk, order.size());
-        chunk.clear_samples();
+    const std::span<const BeamedCell> cells = chunk.beamed.cells;
+    for (std::size_t begin = 0; begin < cells.size();) {
+        std::size_t end = begin + 1;  // one cell may be too large for a chunk
+        while (end < cells.size() && cells[end].last - cells[begin].first <= kChunk) ++end;
+        meter.skip();
+        traced = {};
+        beams_->open_windows(chunk.beamed, cells.subspan(begin, end - begin), chunk.windows, traced);
+        meter.book(Phase::windows, traced);
+        evaluate_cells(samples, cells.subspan(begin, end - begin), radiance, costs, chunk, counters);
+        begin = end;
+    }
+}
+
+// chunk.windows are those of these cells.
+void SurfaceImage::evaluate_cells(const SampleBatch& samples, std::span<const BeamedCell> cells,
+                                  std::span<glm::vec3> radiance, std::span<SampleCost> costs, Chunk& chunk,
+                                  Counters& counters) const {
+    const std::span<const std::uint32_t> order = chunk.beamed.samples.order;
+    std::size_t cell = 0;
+    for (std::size_t begin = cells.front().first, end; begin < cells.back().last; begin = end) {
+        PhaseMeter meter(counters);
+        end = std::min<std::size_t>(begin + kChunk, cells.back().last);
+        chunk.resize_samples(end - begin);
         for (std::size_t i = begin; i < end; ++i) {
-            while (i >= cell->last) ++cell;
-            const std::uint32_t sample = order[i];
-            chunk.u.push_back(samples.u[sample]);
-            chunk.v.push_back(samples.v[sample]);
-            chunk.t.push_back(samples.t[sample]);
-            chunk.start.push_back(cell->misses ? std::numeric_limits<double>::infinity() : cell->start);
-            chunk.hint.push_back(cell->hint);
+            while (i >= cells[cell].last) ++cell;
+            const std::size_t sample = order[i], to = i - begin;
+            chunk.u[to] = samples.u[sample];
+            chunk.v[to] = samples.v[sample];
+            chunk.t[to] = samples.t[sample];
+            chunk.start[to] = cells[cell].misses ? std::numeric_limits<double>::infinity() : cells[cell].start;
+            chunk.hint[to] = cells[cell].hint;
+            chunk.window[to] = chunk.windows.first(cell);
         }
         chunk.radiance.resize(end - begin);
         chunk.sample_costs.assign(costs.empty() ? 0 : end - begin, {});
         chunk.costs = chunk.sample_costs;
+        meter.book(Phase::shading);
         evaluate_chunk({chunk.u, chunk.v, chunk.t}, chunk.radiance, chunk, counters);
+        meter.skip();
         for (std::size_t i = begin; i < end; ++i) radiance[order[i]] = chunk.radiance[i - begin];
         for (std::size_t i = 0; i < chunk.costs.size(); ++i) costs[order[begin + i]] = chunk.costs[i];
+        meter.book(Phase::shading);
     }
 }
 
@@ -219,6 +184,7 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
     glm::dmat3 orientation = placement_.orientation(0.0);
     glm::dvec3 sun = trace::Placement::direction_to_local(orientation, sun_direction_);
     std::optional<trace::Camera> moved;
+    trace::Ray first;  // of its time
     for (std::size_t i = 0; i < count; ++i) {
         const double t = samples.t[i];
         const bool is_new_time = i == 0 || t != samples.t[i - 1];  // of an instant there is one
@@ -227,13 +193,17 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
             sun = trace::Placement::direction_to_local(orientation, sun_direction_);
         }
         if (path_.moves() && is_new_time) moved.emplace(path_.at(t), scene_.film);
-        const trace::Ray world = camera_ray(moved ? *moved : camera_, samples.u[i], samples.v[i]);
-        chunk.rays[i] = to_local(orientation, world, t);
+        const trace::Camera& camera = moved ? *moved : camera_;
+        if (is_new_time) first = to_local(orientation, camera_ray(camera, samples.u[i], samples.v[i]), t);
+        const trace::CameraRay seen = camera.ray(samples.u[i], samples.v[i]);
+        chunk.rays[i] = placement_.from_same_point(orientation, first, seen.direction,
+                                                   scene_.sampling.tolerance * seen.pixel_angle);
         if (!chunk.start.empty()) {
             chunk.rays[i].start = chunk.start[i];
             chunk.rays[i].hint = chunk.hint[i];
+            chunk.rays[i].window = chunk.window[i];
         }
-        chunk.view[i] = trace::Placement::direction_to_local(placement_.resting_orientation(), world.direction);
+        chunk.view[i] = trace::Placement::direction_to_local(placement_.resting_orientation(), seen.direction);
         chunk.sun[i] = sun;
     }
     chunk.hits.resize(count);

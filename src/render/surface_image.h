@@ -66,6 +66,8 @@ class SurfaceImage final : public ImageFunction {
 
     void evaluate_beamed(const SampleBatch& samples, std::span<glm::vec3> radiance, std::span<SampleCost> costs,
                          Chunk& chunk, Counters& counters) const;
+    void evaluate_cells(const SampleBatch& samples, std::span<const BeamedCell> cells, std::span<glm::vec3> radiance,
+                        std::span<SampleCost> costs, Chunk& chunk, Counters& counters) const;
     void evaluate_chunk(const SampleBatch& samples, std::span<glm::vec3> radiance, Chunk& chunk,
                         Counters& counters) const;
     void gradients(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,

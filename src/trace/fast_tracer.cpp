@@ -5,16 +5,10 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "src/trace/base-inl.h"
-#include "src/trace/lower_bound-inl.h"
-#include "src/trace/packet-inl.h"
+#include "src/trace/evaluation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::trace::HWY_NAMESPACE {
-
-// An octave is evaluated where the hinted step is below this many of its lattice cells: beyond, its amplitude bound is
-// the least anyway. Speed only; measured minimum of evaluations a ray, flat from 0.2 to 0.4.
-constexpr float kCellsAhead = 0.3f;
 
 // Exchange finished lanes once this fraction of the packet is idle. Speed only.
 constexpr std::size_t kIdleFraction = 4;
@@ -24,76 +18,7 @@ constexpr std::size_t kIdleFraction = 4;
 constexpr float kRelaxGain = 0.2f, kMostRelax = 0.9f, kRelaxAfterFailure = 0.0f, kLeastOverstep = 2.0f;
 
 // |f| below this many error bounds is settled in double.
-constexpr float kDoubtful = 4.0f;
-
-// What one step learns of every lane.
-struct Evaluation {
-    FloatVec f;      // base minus the evaluated octaves
-    FloatVec error;  // of f
-    FloatVec slope;  // of f along the ray; of use where all octaves were evaluated
-    FloatVec base_slope;
-    FloatPoint gradient;  // of the evaluated octaves, of f's sign
-    FloatVec rest;        // bound of the octaves not evaluated
-    OctaveBounds bounds;
-    hn::Mask<FloatTag> complete;  // all octaves were evaluated
-    hn::Mask<FloatTag> inside;    // f < 0 whatever the octaves not evaluated
-    WordVec octaves;              // how many were
-};
-
-struct OctaveCache {
-    std::array<FloatVec, noise::kMaxOctaves> value, slope;
-    std::size_t count = 0;
-};
-
-// x is where the ray is; the noise is evaluated elsewhere when it drifts.
-template <SurfaceKind kKind, bool kDrifts>
-HWY_INLINE Evaluation evaluate(const TracePlan& plan, const Field& field, const Packet& packet, const WidePoint& x,
-                               const WidePoint& direction, OctaveCache& cache, TraceCounters& counters) {
-    const FloatTag d;
-    const WordTag dw;
-    const FloatVec hint = hn::Load(d, packet.hint), span = hn::Mul(hint, hn::Load(d, packet.speed));
-    const FloatVec dx = to_float(direction.x), dy = to_float(direction.y), dz = to_float(direction.z);
-    const Base base = base_at<kKind>(field, x, direction);
-    WidePoint noise_x = x;
-    if constexpr (kDrifts) noise_x = add(x, load_point(packet.noise_shift));
-    Evaluation at{base.value,  hn::Zero(d), base.slope, base.slope, base_gradient_at<kKind>(x),
-                  hn::Zero(d), no_bounds(), {},         {},         hn::Zero(dw)};
-    at.error = hn::MulAdd(hn::Abs(base.value), hn::Set(d, plan.error_relative), hn::Set(d, plan.error_absolute));
-    auto open = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
-    at.inside = hn::Lt(hn::Zero(d), hn::Zero(d));
-    cache.count = 0;
-    for (const TraceOctave& octave : plan.octaves) {
-        // Stop where f is negative whatever the rest, or positive and the octave is too fine for the step to gain by
-        // it.
-        const FloatVec rest = hn::Set(d, octave.rest), wave = hn::Set(d, octave.wave);
-        const FloatVec ws = hn::Mul(wave, span);
-        const auto doubtful = hn::Le(hn::Sub(at.f, rest), at.error);
-        const auto certain = hn::And(open, hn::Lt(hn::Add(at.f, rest), hn::Neg(at.error)));
-        const auto wanted = hn::AndNot(certain, hn::And(open, hn::Or(doubtful, hn::Le(ws, hn::Set(d, kCellsAhead)))));
-        at.inside = hn::Or(at.inside, certain);
-        at.rest = hn::IfThenElse(hn::AndNot(wanted, open), rest, at.rest);
-        open = wanted;
-        if (hn::AllFalse(d, open)) break;
-        const OctaveSample n = sample_octave<kIsPlanar<kKind>>(octave, noise_x, packet.reach);
-        FloatVec slope = hn::MulAdd(n.dx, dx, hn::Mul(n.dz, dz));
-        if constexpr (!kIsPlanar<kKind>) slope = hn::MulAdd(n.dy, dy, slope);
-        const FloatVec amplitude = hn::IfThenElseZero(open, hn::Set(d, octave.amplitude));
-        at.f = hn::NegMulAdd(amplitude, n.value, at.f);
-        const FloatVec pull = hn::Mul(amplitude, wave);
-        at.slope = hn::NegMulAdd(pull, slope, at.slope);
-        at.gradient.x = hn::NegMulAdd(pull, n.dx, at.gradient.x);
-        if constexpr (!kIsPlanar<kKind>) at.gradient.y = hn::NegMulAdd(pull, n.dy, at.gradient.y);
-        at.gradient.z = hn::NegMulAdd(pull, n.dz, at.gradient.z);
-        at.bounds = add_octave(at.bounds, plan, octave, n.value, slope, hn::Mul(wave, hint), ws, open);
-        at.octaves = hn::Add(at.octaves, hn::IfThenElseZero(hn::RebindMask(dw, open), hn::Set(dw, 1u)));
-        cache.value[cache.count] = n.value;
-        cache.slope[cache.count++] = slope;
-        counters.noise_evaluations += hn::CountTrue(d, open);
-        counters.executed_lanes += hn::Lanes(d);
-    }
-    at.complete = open;
-    return at;
-}
+constexpr float kDoubtful = 1.0f;
 
 // Replaces f where float cannot tell its sign by the reference path's value in double.
 HWY_INLINE void settle_doubt(const Field& field, const TracePlan& plan, Packet& packet, const WidePoint& x,
@@ -124,16 +49,12 @@ HWY_INLINE void settle_doubt(const Field& field, const TracePlan& plan, Packet& 
     at.error = hn::Load(d, error);
 }
 
-HWY_INLINE hn::Mask<FloatTag> uses_octave(const Evaluation& at, std::size_t k) {
-    const hn::RebindToSigned<FloatTag> d;
-    return hn::RebindMask(FloatTag(), hn::Gt(hn::BitCast(d, at.octaves), hn::Set(d, static_cast<int>(k))));
-}
-
 // The longest step that is certified to stay outside the surface.
+template <bool kWindows>
 HWY_INLINE FloatVec safe_step(const TracePlan& plan, const Packet& packet, const Evaluation& at, FloatVec delta,
                               const OctaveCache& cache) {
     const FloatTag d;
-    const FloatVec speed = hn::Load(d, packet.speed), hint = hn::Load(d, packet.hint);
+    const FloatVec speed = hn::Load(d, packet.speed), hint = hn::Min(hn::Load(d, packet.hint), at.room);
     const FloatVec certain = hn::Sub(at.f, hn::Add(at.rest, at.error));
     const FloatVec slope = hn::Sub(at.base_slope, hn::Set(d, plan.slope_error));
     const auto solve = [&](const OctaveBounds& bounds, FloatVec step) HWY_ATTR {
@@ -144,9 +65,9 @@ HWY_INLINE FloatVec safe_step(const TracePlan& plan, const Packet& packet, const
     // The global Lipschitz step is where to look again when the hint was so far off that it gave no step.
     const FloatVec first = solve(at.bounds, hint);
     const FloatVec least = hn::Mul(hn::Max(certain, hn::Zero(d)), hn::Set(d, plan.inverse_lipschitz));
-    const FloatVec again = hn::Min(hn::Max(hn::Max(first, delta), least), hn::Set(d, 1e15f));
+    const FloatVec again = hn::Min(hn::Max(hn::Max(first, delta), least), hn::Min(at.room, hn::Set(d, 1e15f)));
     const FloatVec span = hn::Mul(again, speed);
-    OctaveBounds bounds = no_bounds();
+    OctaveBounds bounds = window_bounds<kWindows>(at, again);
     for (std::size_t k = 0; k < cache.count; ++k) {
         const TraceOctave& octave = plan.octaves[k];
         // The span first: a vertical ray's speed of 0 must not meet an infinite product.
@@ -154,18 +75,19 @@ HWY_INLINE FloatVec safe_step(const TracePlan& plan, const Packet& packet, const
         bounds = add_octave(bounds, plan, octave, cache.value[k], cache.slope[k], hn::Mul(wave, again),
                             hn::Mul(wave, span), uses_octave(at, k));
     }
-    return hn::Max(first, solve(bounds, again));
+    return hn::Min(hn::Max(first, solve(bounds, again)), at.room);
 }
 
 // Lanes whose stretch of length packet.over behind them is free, by bounds taken backwards. f is at least a concave
 // parabola there, so it is positive in between where it is at both ends.
+template <bool kWindows>
 HWY_INLINE hn::Mask<FloatTag> covers_overstep(const TracePlan& plan, const Packet& packet, const Evaluation& at,
                                               const OctaveCache& cache) {
     const FloatTag d;
     const FloatVec over = hn::Load(d, packet.over), span = hn::Mul(over, hn::Load(d, packet.speed));
     const auto lands = hn::Le(over, hn::Zero(d));
     if (HWY_LIKELY(hn::AllTrue(d, lands))) return lands;
-    OctaveBounds bounds = no_bounds();
+    OctaveBounds bounds = window_bounds<kWindows>(at, over);
     for (std::size_t k = 0; k < cache.count; ++k) {
         const FloatVec wave = hn::Set(d, plan.octaves[k].wave);
         bounds = add_octave(bounds, plan, plan.octaves[k], cache.value[k], hn::Neg(cache.slope[k]), hn::Mul(wave, over),
@@ -208,69 +130,124 @@ HWY_INLINE void go_back(Packet& packet, std::size_t lane) {
     packet.relax[lane] = kRelaxAfterFailure;
 }
 
-// One step of every active lane; lanes that finish report and become idle.
-template <SurfaceKind kKind, bool kDrifts>
-HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, std::span<Hit> hits,
-                     TraceCounters& counters) {
+// What a step found out, a lane each.
+struct Outcome {
+    alignas(HWY_MAX_BYTES) float f[kMaxLanes];
+    alignas(HWY_MAX_BYTES) float slope[kMaxLanes];
+    alignas(HWY_MAX_BYTES) float gradient[3][kMaxLanes];
+    alignas(HWY_MAX_BYTES) std::uint32_t octaves[kMaxLanes];
+    alignas(HWY_MAX_BYTES) float is_hit[kMaxLanes];
+    alignas(HWY_MAX_BYTES) float is_covered[kMaxLanes];
+    alignas(HWY_MAX_BYTES) float is_unsettled[kMaxLanes];  // a window's error leaves f's sign in doubt
+    alignas(HWY_MAX_BYTES) double clear[kMaxLanes];        // up to where the ray is free
+    alignas(HWY_MAX_BYTES) double landing[kMaxLanes];      // how far it may go
+    alignas(HWY_MAX_BYTES) float over[kMaxLanes];          // how much further it might
+};
+
+HWY_INLINE void store_flag(hn::Mask<FloatTag> flag, float* to) {
+    const FloatTag d;
+    hn::Store(hn::IfThenElseZero(flag, hn::Set(d, 1.0f)), d, to);
+}
+
+// Evaluates every active lane's point. The step that it allows is the next hint.
+template <SurfaceKind kKind, bool kDrifts, bool kWindows>
+HWY_INLINE void find_out(const Field& field, const TracePlan& plan, Packet& packet, Outcome& found,
+                         TraceCounters& counters) {
     const FloatTag d;
     const WordTag dw;
     const WidePoint direction = load_point(packet.direction);
     const Wide s = load_wide(packet.s);
     const WidePoint x = point_at(load_point(packet.origin), direction, s);
     OctaveCache cache;
-    Evaluation at = evaluate<kKind, kDrifts>(plan, field, packet, x, direction, cache, counters);
+    Evaluation at = evaluate<kKind, kDrifts, kWindows>(plan, field, packet, x, direction, cache, counters);
     hn::Store(hn::Add(hn::Load(dw, packet.evaluations), at.octaves), dw, packet.evaluations);
     settle_doubt(field, plan, packet, x, at, counters);
 
     const Wide delta = mul_add(load_wide(packet.delta_slope), s, load_wide(packet.delta0));
     const FloatVec delta_float = to_float(delta);
-    const FloatVec safe = safe_step(plan, packet, at, delta_float, cache);
-    const auto covered = covers_overstep(plan, packet, at, cache);
-    const auto inside = hn::Or(at.inside, hn::And(at.complete, hn::Le(at.f, hn::Zero(d))));
-
-    alignas(HWY_MAX_BYTES) float f[kMaxLanes], slope[kMaxLanes], hit[kMaxLanes], gradient[3][kMaxLanes],
-        is_covered[kMaxLanes], over[kMaxLanes];
-    alignas(HWY_MAX_BYTES) std::uint32_t octaves[kMaxLanes];
-    alignas(HWY_MAX_BYTES) double outside[kMaxLanes], landing[kMaxLanes];
-    hn::Store(at.f, d, f);
-    hn::Store(at.slope, d, slope);
-    hn::Store(at.gradient.x, d, gradient[0]);
-    hn::Store(at.gradient.y, d, gradient[1]);
-    hn::Store(at.gradient.z, d, gradient[2]);
-    hn::Store(at.octaves, dw, octaves);
-    hn::Store(hn::IfThenElseZero(inside, hn::Set(d, 1.0f)), d, hit);
+    const FloatVec safe = safe_step<kWindows>(plan, packet, at, delta_float, cache);
+    auto inside = hn::Or(at.inside, hn::And(at.complete, hn::Le(at.f, hn::Zero(d))));
+    if constexpr (kWindows) {
+        store_flag(hn::And(at.windowed, hn::Le(hn::Abs(at.f), at.error)), found.is_unsettled);
+        inside = hn::Or(inside, hn::And(at.windowed, hn::Lt(at.f, hn::Neg(at.error))));
+    }
+    store_flag(inside, found.is_hit);
+    store_flag(covers_overstep<kWindows>(plan, packet, at, cache), found.is_covered);
+    hn::Store(at.f, d, found.f);
+    hn::Store(at.slope, d, found.slope);
+    hn::Store(at.gradient.x, d, found.gradient[0]);
+    hn::Store(at.gradient.y, d, found.gradient[1]);
+    hn::Store(at.gradient.z, d, found.gradient[2]);
+    hn::Store(at.octaves, dw, found.octaves);
     hn::Store(hn::Min(hn::Max(hn::Max(safe, delta_float), hn::Set(d, 1e-30f)), hn::Set(d, 1e15f)), d, packet.hint);
-    hn::Store(hn::IfThenElseZero(covered, hn::Set(d, 1.0f)), d, is_covered);
     // Near the surface there is nothing to be gained.
     const FloatVec further = hn::Mul(hn::Min(safe, hn::Set(d, 1e15f)), hn::Load(d, packet.relax));
-    hn::Store(hn::IfThenElseZero(hn::Gt(further, hn::Mul(delta_float, hn::Set(d, kLeastOverstep))), further), d, over);
+    const auto is_far = hn::Gt(further, hn::Mul(delta_float, hn::Set(d, kLeastOverstep)));
+    hn::Store(hn::IfThenElseZero(is_far, further), d, found.over);
     const Wide clear = add(s, to_wide(safe));
-    store_wide(clear, outside);
-    store_wide(add(clear, delta), landing);
-    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+    store_wide(clear, found.clear);
+    store_wide(add(clear, delta), found.landing);
+}
+
+// Reports the lane's ray and lets it go.
+template <bool kWindows>
+HWY_INLINE void end_ray(const TracePlan& plan, Packet& packet, std::size_t lane, HitState state, const Outcome& found,
+                        std::span<Hit> hits) {
+    Hit& hit = hits[packet.ray[lane]];
+    report(packet, lane, state, found.f[lane], found.slope[lane], hit);
+    hit.gradient = {found.gradient[0][lane], found.gradient[1][lane], found.gradient[2][lane]};
+    hit.octaves = found.octaves[lane];
+    if (kWindows && packet.windows.holds(lane)) hit.octaves = packet.windows.octaves[lane];
+    // The normal of a bound owes nothing to the noise.
+    if (hit.on_bound) hit.octaves = static_cast<std::uint32_t>(plan.octaves.size());
+    drop_lane(packet, lane);
+}
+
+// To where the ray may land and, it is hoped, further.
+template <bool kWindows>
+HWY_INLINE void go_on(Packet& packet, std::size_t lane, const Outcome& found) {
+    const double landing = found.landing[lane];
+    float over = found.over[lane];
+    if constexpr (kWindows) {
+        over = std::min(over, static_cast<float>(std::max(packet.windows.exit[lane] - landing, 0.0)));
+    }
+    packet.s_outside[lane] = found.clear[lane];
+    packet.relax[lane] = std::min(packet.relax[lane] + kRelaxGain, kMostRelax);
+    packet.over[lane] = over;
+    packet.s[lane] = landing + static_cast<double>(over);
+    if (kWindows && packet.windows.changes(lane, packet.s[lane])) {
+        change_window(packet.windows, lane, landing, static_cast<double>(over));
+    }
+}
+
+// One step of every active lane; lanes that finish report and become idle.
+template <SurfaceKind kKind, bool kDrifts, bool kWindows>
+HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, std::span<Hit> hits,
+                     TraceCounters& counters) {
+    Outcome found;
+    find_out<kKind, kDrifts, kWindows>(field, plan, packet, found, counters);
+    for (std::size_t lane = 0; lane < hn::Lanes(FloatTag()); ++lane) {
         if (packet.ray[lane] == kNoRay) continue;
+        const bool is_covered = found.is_covered[lane] != 0.0f;
+        if (kWindows && is_covered && found.is_unsettled[lane] != 0.0f) {
+            packet.windows.leave(lane);  // and looks again: not a step
+            continue;
+        }
         ++packet.steps[lane];
         ++counters.steps;
-        if (is_covered[lane] == 0.0f && packet.steps[lane] < packet.step_limit[lane]) {
+        const bool is_last = packet.steps[lane] >= packet.step_limit[lane];
+        if (!is_covered && !is_last) {
             go_back(packet, lane);
             continue;
         }
-        const bool is_hit = hit[lane] != 0.0f;
-        const bool is_miss = !is_hit && landing[lane] >= packet.end[lane];
-        if (is_hit || is_miss || packet.steps[lane] >= packet.step_limit[lane]) {
+        const bool is_hit = found.is_hit[lane] != 0.0f;
+        const bool is_miss = !is_hit && found.landing[lane] >= packet.end[lane];
+        if (is_hit || is_miss || is_last) {
             const HitState state = is_hit ? HitState::hit : is_miss ? HitState::miss : HitState::unresolved;
-            Hit& found = hits[packet.ray[lane]];
-            report(packet, lane, state, f[lane], slope[lane], found);
-            found.gradient = {gradient[0][lane], gradient[1][lane], gradient[2][lane]};
-            // The normal of a bound owes nothing to the noise.
-            found.octaves = found.on_bound ? static_cast<std::uint32_t>(plan.octaves.size()) : octaves[lane];
-            drop_lane(packet, lane);
-            continue;
+            end_ray<kWindows>(plan, packet, lane, state, found, hits);
+        } else {
+            go_on<kWindows>(packet, lane, found);
         }
-        packet.s_outside[lane] = outside[lane];
-        packet.relax[lane] = std::min(packet.relax[lane] + kRelaxGain, kMostRelax);
-        packet.over[lane] = over[lane];
-        packet.s[lane] = landing[lane] + static_cast<double>(packet.over[lane]);
     }
 }
 
@@ -289,7 +266,7 @@ HWY_INLINE void refill(const Field& field, const TracePlan& plan, std::span<cons
     }
 }
 
-template <SurfaceKind kKind, bool kDrifts>
+template <SurfaceKind kKind, bool kDrifts, bool kWindows>
 HWY_NOINLINE void trace_moving(const Field& field, const TracePlan& plan, std::span<const Ray> rays,
                                std::span<Hit> hits, TraceCounters& counters) {
     const std::size_t lanes = hn::Lanes(FloatTag());
@@ -300,15 +277,23 @@ HWY_NOINLINE void trace_moving(const Field& field, const TracePlan& plan, std::s
             refill(field, plan, rays, hits, next, packet);
         }
         if (packet.active_count == 0) return;
-        step<kKind, kDrifts>(field, plan, packet, hits, counters);
+        step<kKind, kDrifts, kWindows>(field, plan, packet, hits, counters);
     }
+}
+
+template <SurfaceKind kKind, bool kWindows>
+void trace_windowed(const Field& field, const TracePlan& plan, std::span<const Ray> rays, std::span<Hit> hits,
+                    TraceCounters& counters) {
+    if (field.drifts()) return trace_moving<kKind, true, kWindows>(field, plan, rays, hits, counters);
+    trace_moving<kKind, false, kWindows>(field, plan, rays, hits, counters);
 }
 
 template <SurfaceKind kKind>
 void trace_kind(const Field& field, const TracePlan& plan, std::span<const Ray> rays, std::span<Hit> hits,
                 TraceCounters& counters) {
-    if (field.drifts()) return trace_moving<kKind, true>(field, plan, rays, hits, counters);
-    trace_moving<kKind, false>(field, plan, rays, hits, counters);
+    const bool has_windows = std::ranges::any_of(rays, [](const Ray& ray) { return ray.window != nullptr; });
+    if (has_windows) return trace_windowed<kKind, true>(field, plan, rays, hits, counters);
+    trace_windowed<kKind, false>(field, plan, rays, hits, counters);
 }
 
 void Trace(const Field& field, const TracePlan& plan, std::span<const Ray> rays, std::span<Hit> hits,

@@ -14,11 +14,11 @@
 
 #include "src/trace/octave-inl.h"
 #include "src/trace/ray.h"
+#include "src/trace/window_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::trace::HWY_NAMESPACE {
 
-inline constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
 inline constexpr std::size_t kNoRay = std::numeric_limits<std::size_t>::max();
 
 // How far a ray's first safe step is overstepped, as a fraction of it. Speed only.
@@ -43,6 +43,7 @@ struct Packet {
     std::uint32_t step_limit[kMaxLanes] = {};
     std::size_t ray[kMaxLanes] = {};
     bool enters_bound[kMaxLanes] = {};
+    WindowLanes windows;
     double reach = 0.0;  // bound of |x + noise_shift| on every axis over all rays taken so far
     std::size_t active_count = 0;
 };
@@ -75,12 +76,15 @@ HWY_INLINE void take_ray(Packet& packet, std::size_t lane, const Ray& ray, std::
     packet.step_limit[lane] = ray.step_limit;
     packet.ray[lane] = index;
     packet.enters_bound[lane] = inside.enters_bound && inside.begin >= ray.start;
+    packet.windows.begin(lane, ray.window);
+    change_window(packet.windows, lane, packet.s[lane], 0.0);
     ++packet.active_count;
 }
 
 HWY_INLINE void drop_lane(Packet& packet, std::size_t lane) {
     packet.active[lane] = 0.0f;
     packet.ray[lane] = kNoRay;
+    packet.windows.leave(lane);
     --packet.active_count;
 }
 

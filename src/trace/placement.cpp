@@ -7,9 +7,6 @@ namespace strata::trace {
 
 namespace {
 
-// Positions along a ray are rounded by 2^-52 of their size or less: a tolerance finer than a few of that is none.
-constexpr double kLeastDelta = 0x1p-50;
-
 // Rodrigues' formula; exact for multiples of 90 degrees about an axis of the frame.
 glm::dmat3 rotation_about(const glm::dvec3& unit_axis, double degrees) {
     const double turn = std::remainder(degrees, 360.0);

@@ -1,6 +1,7 @@
 // Where a surface stands in the world: x_world = origin + spin(t) * rotation * (scale * x_local).
 #pragma once
 
+#include <algorithm>
 #include <glm/glm.hpp>
 
 #include "src/scene/scene.h"
@@ -36,7 +37,19 @@ class Placement {
     Ray to_local(const glm::dmat3& orientation, const Ray& world,
                  const glm::dvec3& noise_shift = glm::dvec3(0.0)) const;
 
+    // What to_local gives for another ray from the same point at the same time: `local` but for the direction.
+    static Ray from_same_point(const glm::dmat3& orientation, const Ray& local, const glm::dvec3& world_direction,
+                               double world_delta_slope) {
+        Ray ray = local;
+        ray.direction = glm::normalize(direction_to_local(orientation, world_direction));
+        ray.delta_slope = std::max(world_delta_slope, kLeastDelta);
+        return ray;
+    }
+
   private:
+    // Positions along a ray are rounded by 2^-52 of their size or less: a tolerance finer than a few of that is none.
+    static constexpr double kLeastDelta = 0x1p-50;
+
     glm::dvec3 origin_;
     glm::dmat3 rotation_;
     glm::dvec3 spin_axis_;

@@ -6,6 +6,8 @@
 
 namespace strata::trace {
 
+struct Window;
+
 // Steps after which a ray is given up as unresolved.
 inline constexpr std::uint32_t kStepLimit = 1u << 20;
 
@@ -21,8 +23,9 @@ struct Ray {
     double limit = 0.0;
     double delta0 = 0.0;
     double delta_slope = 0.0;
-    double start = 0.0;  // f > 0 in [0, start) or wherever a bound does not cut it off
-    float hint = 0.0f;   // step length to begin with; 0: unknown. Speed only
+    double start = 0.0;              // f > 0 in [0, start) or wherever a bound does not cut it off
+    float hint = 0.0f;               // step length to begin with; 0: unknown. Speed only
+    const Window* window = nullptr;  // the first of those that the ray may pass through. Speed only
     std::uint32_t step_limit = kStepLimit;
 };
 

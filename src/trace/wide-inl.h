@@ -22,6 +22,9 @@ using noise::HWY_NAMESPACE::WordVec;
 using DoubleTag = hn::ScalableTag<double>;
 using DoubleVec = hn::Vec<DoubleTag>;
 
+// Of a vector of floats, at most.
+inline constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
+
 #if HWY_TARGET == HWY_SCALAR
 inline constexpr std::size_t kParts = 1;
 #else

@@ -48,12 +48,14 @@ glm::dvec2 sum(const std::vector<glm::vec2>& costs) {
     return total;
 }
 
-// Steps and noise evaluations of the samples' own: all but those of beams.
+// Steps and noise evaluations of the samples' own: all but those of beams and windows.
 glm::dvec2 own_work(const Counters& counters) {
-    const PhaseCost& beams = counters.phases[static_cast<std::size_t>(Phase::beams)];
-    const PhaseCost& sun_beams = counters.phases[static_cast<std::size_t>(Phase::sun_beams)];
-    return {static_cast<double>(counters.steps - beams.steps - sun_beams.steps),
-            static_cast<double>(counters.noise_evaluations - beams.noise_evaluations - sun_beams.noise_evaluations)};
+    glm::dvec2 own(counters.steps, counters.noise_evaluations);
+    for (const Phase shared : {Phase::beams, Phase::windows, Phase::sun_beams}) {
+        const PhaseCost& cost = counters.phases[static_cast<std::size_t>(shared)];
+        own -= glm::dvec2(cost.steps, cost.noise_evaluations);
+    }
+    return own;
 }
 
 constexpr SurfaceKind kSurfaces[] = {SurfaceKind::terrain, SurfaceKind::hyperterrain, SurfaceKind::planet,
