@@ -36,7 +36,7 @@ struct WindowedRays {
             beam.direction = glm::normalize(rays[i].direction + off);
             // As though eye and noise had moved by some.
             if (random() % 4 == 0) beam.radius0 = spread * log_uniform(random, 1e-3, 1.0);
-            if (random() % 4 == 0) beam.noise_radius = spread * log_uniform(random, 1e-3, 1.0);
+            if (random() % 4 == 0) beam.noise_radius = spread * log_uniform(random, 1e-2, 30.0);
             cells[i].shift = 2.0 * beam.radius0;
             beam.origin = rays[i].origin + 0.999 * beam.radius0 * unit_vector(random) - beam.radius0 * beam.direction;
             beam.noise_shift = rays[i].noise_shift + 0.999 * beam.noise_radius * unit_vector(random);
