@@ -40,12 +40,15 @@ std::uint64_t column_of(double x) {
     return static_cast<std::uint64_t>(std::clamp(std::floor(x) + kBias, 0.0, 2.0 * kBias - 1.0));
 }
 
+constexpr double power_of_two(int exponent) { return static_cast<double>(std::uint64_t{1} << exponent); }
+
 constexpr std::uint64_t low_bits(std::uint64_t x, int count) { return x & ((std::uint64_t{1} << count) - 1); }
 
 }  // namespace
 
 ScreenHierarchy::ScreenHierarchy(double leaf, int time_bits, const scene::TimeSpan& shutter)
     : leaf_(leaf),
+      cells_a_pixel_(1.0 / leaf),
       levels_(1),
       time_bits_(std::clamp(time_bits, 0, kMostTimeBits)),
       shutter_(shutter),
@@ -54,7 +57,7 @@ ScreenHierarchy::ScreenHierarchy(double leaf, int time_bits, const scene::TimeSp
     while (time_bits_at(levels_ - 1) > 0) ++levels_;
 }
 
-double ScreenHierarchy::side(int level) const { return std::ldexp(leaf_, kLevelBits * level); }
+double ScreenHierarchy::side(int level) const { return leaf_ * power_of_two(kLevelBits * level); }
 
 int ScreenHierarchy::time_bits_at(int level) const { return std::max(0, time_bits_ - kLevelBits * level); }
 
@@ -63,7 +66,8 @@ int ScreenHierarchy::shift(int level) const { return 2 * kLevelBits * level + ti
 // From the top: the coarsest cell's column and row interleaved, then for each finer level two bits of each and the
 // level's bits of the time.
 std::uint64_t ScreenHierarchy::code(double u, double v, double t) const {
-    const std::uint64_t square = spread_bits(column_of(u / leaf_)) | spread_bits(column_of(v / leaf_)) << 1;
+    const std::uint64_t square = spread_bits(column_of(u * cells_a_pixel_)) | spread_bits(column_of(v * cells_a_pixel_))
+                                                                                  << 1;
     if (time_bits_ == 0) return square;
     const double most = (1 << time_bits_) - 1;
     const auto time = static_cast<std::uint64_t>(std::clamp(std::floor((t - shutter_.first) / interval_), 0.0, most));
@@ -89,7 +93,7 @@ ScreenCell ScreenHierarchy::cell(std::uint64_t shifted, int level) const {
         shifted >>= 2 * kLevelBits;
     }
     square |= shifted << square_shift;
-    const double bias = std::ldexp(kBias, -kLevelBits * level);
+    const double bias = kBias / power_of_two(kLevelBits * level);
     ScreenCell cell;
     cell.side = side(level);
     cell.x = (static_cast<double>(gather_bits(square)) - bias) * cell.side;
@@ -122,15 +126,17 @@ void SortedSamples::sort(const ScreenHierarchy& hierarchy, std::span<const doubl
     order.resize(u.size());
     scratch_codes_.resize(u.size());
     scratch_order_.resize(u.size());
+    std::uint64_t least = ~std::uint64_t{0}, most = 0;
     for (std::size_t i = 0; i < u.size(); ++i) {
-        codes[i] = hierarchy.code(u[i], v[i], t[i]);
+        const std::uint64_t code = hierarchy.code(u[i], v[i], t[i]);
+        codes[i] = code;
         order[i] = static_cast<std::uint32_t>(i);
+        least = std::min(least, code);
+        most = std::max(most, code);
     }
     if (codes.empty()) return;
-    const auto [least, most] = std::ranges::minmax_element(codes);
-    const std::uint64_t first = *least;
-    const int bits = static_cast<int>(std::bit_width(*most - first));
-    for (int shift = 0; shift < bits; shift += 11) sort_by_digit(shift, first);
+    const int bits = static_cast<int>(std::bit_width(most - least));
+    for (int shift = 0; shift < bits; shift += 11) sort_by_digit(shift, least);
 }
 
 }  // namespace strata::render

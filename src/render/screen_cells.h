@@ -44,6 +44,7 @@ class ScreenHierarchy {
     int time_bits_at(int level) const;
 
     double leaf_;
+    double cells_a_pixel_;  // exact: leaf_ is a power of two
     int levels_;
     int time_bits_;
     scene::TimeSpan shutter_;

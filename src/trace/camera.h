@@ -28,7 +28,8 @@ class Camera {
     CameraRay ray(double u, double v) const {
         const glm::dvec3 along = toward(u, v);
         const double squared = glm::dot(along, along);
-        return {along / glm::sqrt(squared), pixel_ / squared};
+        const double inverse = 1.0 / squared;
+        return {along * glm::sqrt(inverse), pixel_ * inverse};
     }
 
     // Where the ray through (u, v) meets the plane at unit depth, from its middle, right and up.

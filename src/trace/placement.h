@@ -41,12 +41,18 @@ class Placement {
     static Ray from_same_point(const glm::dmat3& orientation, const Ray& local, const glm::dvec3& world_direction,
                                double world_delta_slope) {
         Ray ray = local;
-        ray.direction = glm::normalize(direction_to_local(orientation, world_direction));
+        ray.direction = turned(orientation, world_direction);
         ray.delta_slope = std::max(world_delta_slope, kLeastDelta);
         return ray;
     }
 
   private:
+    // Of a direction of unit length but for rounding, its turn: a step of Newton's makes up for the square root.
+    static glm::dvec3 turned(const glm::dmat3& orientation, const glm::dvec3& world_direction) {
+        const glm::dvec3 d = direction_to_local(orientation, world_direction);
+        return d * (1.5 - 0.5 * glm::dot(d, d));
+    }
+
     // Positions along a ray are rounded by 2^-52 of their size or less: a tolerance finer than a few of that is none.
     static constexpr double kLeastDelta = 0x1p-50;
 
