@@ -92,10 +92,15 @@ nlohmann::ordered_json passes_json(const PassStatistics& passes) {
             {"predicted_seconds", number_or_null(passes.predicted_seconds, passes.predicted_seconds > 0)}};
 }
 
+// By the clock, as the phases' own.
+double thread_seconds(const RunStatistics& statistics) {
+    return std::max(statistics.seconds * statistics.threads, 1e-9);
+}
+
 // The image function's phases, and `samples and film` for what it does not account for.
 std::vector<std::pair<std::string, render::PhaseCost>> phases(const RunStatistics& statistics) {
     std::vector<std::pair<std::string, render::PhaseCost>> phases;
-    double rest_s = statistics.cpu_seconds;
+    double rest_s = thread_seconds(statistics);
     for (std::size_t i = 0; i < render::kPhases; ++i) {
         const render::PhaseCost& cost = statistics.counters.phases[i];
         if (cost.seconds == 0.0) continue;
@@ -111,19 +116,35 @@ nlohmann::ordered_json phases_json(const RunStatistics& statistics) {
     for (const auto& [name, cost] : phases(statistics)) {
         json.push_back({{"phase", name},
                         {"seconds", cost.seconds},
-                        {"share", cost.seconds / std::max(statistics.cpu_seconds, 1e-9)},
+                        {"share", cost.seconds / thread_seconds(statistics)},
                         {"steps", cost.steps},
                         {"noise_evaluations", cost.noise_evaluations}});
+        if (cost.left_out.total() == 0) continue;
+        json.back()["octaves_left_out"] = {{"too_fine_for_the_step", cost.left_out.too_fine},
+                                           {"sign_settled_without", cost.left_out.settled},
+                                           {"in_a_window", cost.left_out.in_window}};
     }
     return json;
+}
+
+// A share of what all octaves at every point looked at would have been.
+std::string left_out_summary(const render::Counters& counters) {
+    trace::LeftOut left;
+    for (const render::PhaseCost& cost : counters.phases) left += cost.left_out;
+    const double all = static_cast<double>(left.total() + counters.noise_evaluations) * 0.01;
+    if (left.total() == 0) return {};
+    return fmt::format(
+        "left out {:.0f} % of octaves: too fine for the step {:.0f} %, sign settled without {:.0f} %, "
+        "in a window {:.0f} %\n",
+        static_cast<double>(left.total()) / all, static_cast<double>(left.too_fine) / all,
+        static_cast<double>(left.settled) / all, static_cast<double>(left.in_window) / all);
 }
 
 std::string phases_summary(const RunStatistics& statistics) {
     std::string text = "phases   ";
     const char* separator = "";
     for (const auto& [name, cost] : phases(statistics)) {
-        text += fmt::format("{}{} {:.0f} %", separator, name,
-                            100.0 * cost.seconds / std::max(statistics.cpu_seconds, 1e-9));
+        text += fmt::format("{}{} {:.0f} %", separator, name, 100.0 * cost.seconds / thread_seconds(statistics));
         separator = ", ";
     }
     return text + "\n";
@@ -164,6 +185,7 @@ std::string summary(const RunStatistics& statistics) {
         text += fmt::format("noise    {:.1f} evaluations a ray, shadow rays and normals included in the count\n",
                             static_cast<double>(c.noise_evaluations) / std::max(1.0, rays + shadow_rays));
     }
+    text += left_out_summary(c);
     if (c.steps > 0) text += phases_summary(statistics);
     if (statistics.passes) text += passes_summary(*statistics.passes);
     text += fmt::format("memory   {:.0f} MB at most\n", static_cast<double>(statistics.peak_memory_bytes) / 1e6);

@@ -28,6 +28,7 @@ PhaseCost& PhaseCost::operator+=(const PhaseCost& other) {
     seconds += other.seconds;
     noise_evaluations += other.noise_evaluations;
     steps += other.steps;
+    left_out += other.left_out;
     return *this;
 }
 

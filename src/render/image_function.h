@@ -8,11 +8,10 @@
 #include <span>
 
 #include "src/render/sample_cost.h"
+#include "src/trace/ray.h"
 
 namespace strata::render {
 
-// Work done, exact and independent of threads. What beams do, that samples of a batch share, depends on the batches and
-// so on tiles and crop; as do executed_lanes, which count SIMD lanes that idle, too.
 // Where the work of a ray-cast surface is done.
 enum class Phase { beams, windows, rays, normals, sun_beams, shadows, shading };
 inline constexpr std::size_t kPhases = 7;
@@ -24,10 +23,13 @@ struct PhaseCost {
     double seconds = 0.0;  // of one thread's time; depends on the machine, unlike all else here
     std::uint64_t noise_evaluations = 0;
     std::uint64_t steps = 0;
+    trace::LeftOut left_out{};
 
     PhaseCost& operator+=(const PhaseCost& other);
 };
 
+// Work done, exact and independent of threads. What beams and windows do, that samples of a batch share, depends on the
+// batches and so on tiles and crop; as do executed_lanes, which count SIMD lanes that idle, too.
 struct Counters {
     std::uint64_t rays = 0;  // image-function samples evaluated; counted by the renderer, all else by image functions
     std::uint64_t shadow_rays = 0;

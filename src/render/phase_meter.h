@@ -19,6 +19,7 @@ class PhaseMeter {
         cost.seconds += std::chrono::duration<double>(now - since_).count();
         cost.noise_evaluations += work.noise_evaluations;
         cost.steps += work.steps;
+        cost.left_out += work.left_out;
         counters_.noise_evaluations += work.noise_evaluations;
         counters_.executed_lanes += work.executed_lanes;
         counters_.steps += work.steps;

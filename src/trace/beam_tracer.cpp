@@ -159,7 +159,9 @@ HWY_INLINE void step_beams(const Field& field, const TracePlan& plan, BeamPacket
     const FloatVec least_gain = hn::Mul(radius, hn::Set(d, kLeastGain));
 
     BeamCache cache;
+    const std::uint64_t evaluated = counters.noise_evaluations;
     const FloatVec certain = evaluate_beam<kKind, kDrifts>(plan, field, packet, x, direction, radius, cache, counters);
+    counters.left_out.too_fine += packet.active_count * plan.octaves.size() - (counters.noise_evaluations - evaluated);
     const BeamPoint at{to_float(direction), base_gradient_at<kKind>(x), certain};
     BeamSpan span{hint, hn::Mul(hint, speed), radius, hn::Mul(to_float(spread), up)};
     FloatVec slope;

@@ -159,7 +159,15 @@ HWY_INLINE void find_out(const Field& field, const TracePlan& plan, Packet& pack
     const Wide s = load_wide(packet.s);
     const WidePoint x = point_at(load_point(packet.origin), direction, s);
     OctaveCache cache;
+    const std::uint64_t evaluated = counters.noise_evaluations;
     Evaluation at = evaluate<kKind, kDrifts, kWindows>(plan, field, packet, x, direction, cache, counters);
+    // Without those that end_ray moves to `settled`.
+    counters.left_out.too_fine += packet.active_count * plan.octaves.size() - (counters.noise_evaluations - evaluated);
+    if constexpr (kWindows) {
+        const std::size_t in_window = hn::CountTrue(d, at.windowed) * plan.octaves.size();
+        counters.left_out.in_window += in_window;
+        counters.left_out.too_fine -= in_window;
+    }
     hn::Store(hn::Add(hn::Load(dw, packet.evaluations), at.octaves), dw, packet.evaluations);
     settle_doubt(field, plan, packet, x, at, counters);
 
@@ -192,12 +200,17 @@ HWY_INLINE void find_out(const Field& field, const TracePlan& plan, Packet& pack
 // Reports the lane's ray and lets it go.
 template <bool kWindows>
 HWY_INLINE void end_ray(const TracePlan& plan, Packet& packet, std::size_t lane, HitState state, const Outcome& found,
-                        std::span<Hit> hits) {
+                        std::span<Hit> hits, TraceCounters& counters) {
     Hit& hit = hits[packet.ray[lane]];
     report(packet, lane, state, found.f[lane], found.slope[lane], hit);
     hit.gradient = {found.gradient[0][lane], found.gradient[1][lane], found.gradient[2][lane]};
     hit.octaves = found.octaves[lane];
-    if (kWindows && packet.windows.holds(lane)) hit.octaves = packet.windows.octaves[lane];
+    if (kWindows && packet.windows.holds(lane)) {
+        hit.octaves = packet.windows.octaves[lane];
+    } else if (state == HitState::hit) {
+        counters.left_out.settled += plan.octaves.size() - hit.octaves;
+        counters.left_out.too_fine -= plan.octaves.size() - hit.octaves;
+    }
     // The normal of a bound owes nothing to the noise.
     if (hit.on_bound) hit.octaves = static_cast<std::uint32_t>(plan.octaves.size());
     drop_lane(packet, lane);
@@ -244,7 +257,7 @@ HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, 
         const bool is_miss = !is_hit && found.landing[lane] >= packet.end[lane];
         if (is_hit || is_miss || is_last) {
             const HitState state = is_hit ? HitState::hit : is_miss ? HitState::miss : HitState::unresolved;
-            end_ray<kWindows>(plan, packet, lane, state, found, hits);
+            end_ray<kWindows>(plan, packet, lane, state, found, hits, counters);
         } else {
             go_on<kWindows>(packet, lane, found);
         }

@@ -48,10 +48,26 @@ struct Hit {
     std::uint32_t octaves = 0;
 };
 
+// Octaves that were not evaluated where f was looked at, by what made them needless.
+struct LeftOut {
+    std::uint64_t too_fine = 0;   // f is above 0 whatever they are, and the step too long for them to lengthen it
+    std::uint64_t settled = 0;    // f is below 0 whatever they are
+    std::uint64_t in_window = 0;  // a window's polynomial stood for them
+
+    std::uint64_t total() const { return too_fine + settled + in_window; }
+    LeftOut& operator+=(const LeftOut& other) {
+        too_fine += other.too_fine;
+        settled += other.settled;
+        in_window += other.in_window;
+        return *this;
+    }
+};
+
 struct TraceCounters {
     std::uint64_t noise_evaluations = 0;
     std::uint64_t executed_lanes = 0;
     std::uint64_t steps = 0;
+    LeftOut left_out;  // of rays and beams
 };
 
 }  // namespace strata::trace

@@ -147,6 +147,9 @@ TEST_CASE(
             CHECK(found.unfounded == 0);
             CHECK(found.unresolved == 0);
             thickest = std::max(thickest, found.thickest);
+            const std::uint64_t looked_up = counters.noise_evaluations + counters.left_out.total();
+            CHECK(looked_up % c.field.octaves().size() == 0);
+            CHECK(counters.left_out.in_window > 0);
             rays += found.rays;
             for (std::size_t k = 0; k < hits.size(); ++k) {
                 windowed += with.rays[k].window != nullptr;

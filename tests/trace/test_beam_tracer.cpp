@@ -248,3 +248,13 @@ TEST_CASE("a beam that starts at or beyond its limit, or within the surface, sta
     }
     CHECK(inside > 30);
 }
+
+TEST_CASE("of every point that a beam looks at each octave is evaluated or left out as too fine") {
+    Random random(82);
+    for (int i = 0; i < 16; ++i) {
+        const trace::Field field(beam_surface(random, i));
+        trace::TraceCounters counters;
+        ends_of(trace::BeamTracer(field), hard_beams(random, field, 100), counters);
+        CHECK(counters.noise_evaluations + counters.left_out.too_fine == counters.steps * field.octaves().size());
+    }
+}

@@ -265,3 +265,27 @@ TEST_CASE("the benchmark scene takes at most 220 noise evaluations a ray, normal
         CHECK(x.size() * 10 > rays.size() * 7);
     });
 }
+
+TEST_CASE("of every point that a ray looks at each octave is evaluated or left out for a reason") {
+    Random random(81);
+    std::uint64_t settled = 0, too_fine = 0;
+    for (int i = 0; i < 16; ++i) {
+        scene::Surface surface = random_surface(random);
+        surface.kind = static_cast<SurfaceKind>(i % 4);
+        const trace::Field field(surface);
+        const trace::FastTracer tracer(field);
+        RayFamilies families(field, tracer, 1e-3);
+        const Traced traced = trace_all(tracer, families.make(random, 200));
+        const trace::TraceCounters& c = traced.counters;
+        const std::uint64_t octaves = field.octaves().size();
+        const std::uint64_t looked_up = c.noise_evaluations + c.left_out.total();
+        CHECK(looked_up % octaves == 0);
+        CHECK(looked_up >= c.steps * octaves);  // what float leaves in doubt is looked at twice
+        CHECK(looked_up <= 2 * c.steps * octaves);
+        CHECK(c.left_out.in_window == 0);
+        settled += c.left_out.settled;
+        too_fine += c.left_out.too_fine;
+    }
+    CHECK(settled > 0);
+    CHECK(too_fine > settled);
+}
