@@ -92,9 +92,11 @@ nlohmann::ordered_json passes_json(const PassStatistics& passes) {
             {"predicted_seconds", number_or_null(passes.predicted_seconds, passes.predicted_seconds > 0)}};
 }
 
-// By the clock, as the phases' own.
+// What shares refer to: phases are measured by the clock, which runs on while others have the processor.
 double thread_seconds(const RunStatistics& statistics) {
-    return std::max(statistics.seconds * statistics.threads, 1e-9);
+    double phases_s = 0.0;
+    for (const render::PhaseCost& cost : statistics.counters.phases) phases_s += cost.seconds;
+    return std::max({statistics.cpu_seconds, phases_s, 1e-9});
 }
 
 // The image function's phases, and `samples and film` for what it does not account for.

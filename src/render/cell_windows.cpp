@@ -7,8 +7,8 @@ namespace strata::render {
 
 namespace {
 
-// Near the surface a window's error in f is about this part of what f falls by over a tolerance, the slope taken to be
-// no less than the second constant; elsewhere the third part of f. Speed only, as all constants here but the last.
+// Speed only, as all constants here but the last two: near the surface a window's error in f is about kNearError of
+// what f falls by over a tolerance, its slope taken to be no less than kLeastSlope; elsewhere kFarError of f.
 constexpr double kNearError = 0.2;
 constexpr double kLeastSlope = 0.1;
 constexpr double kFarError = 0.15;
@@ -25,12 +25,15 @@ constexpr int kMostWindows = 8;
 // Covers the rounding of distances along rays.
 constexpr double kSooner = 1.0 - 0x1p-50;
 
+// Of positions: covers the rounding of a centre and of a ray's point.
+constexpr double kPlace = 0x1p-49;
+
 double radius_at(const trace::Beam& beam, double s) { return beam.radius0 + beam.noise_radius + beam.spread * s; }
 
 }  // namespace
 
-// Of the next window's ball; 0 where none is worth it.
-double CellWindows::next_radius(const WindowChain& chain, std::uint32_t& octaves) const {
+// No octaves where no window is worth it.
+trace::WindowPlan::Size CellWindows::next_size(const WindowChain& chain) const {
     const double beam_radius = radius_at(chain.cell->beam, chain.s);
     trace::WindowPlan::Size size;
     if (chain.clearance > 0.0) {
@@ -41,14 +44,14 @@ double CellWindows::next_radius(const WindowChain& chain, std::uint32_t& octaves
         const double slope = std::clamp(std::abs(chain.slope), kLeastSlope, 1.0);
         size = plan_.size(kNearError * tolerance_ * chain.s * slope);
     }
-    octaves = size.octaves;
-    return size.radius > kLeastWidth * beam_radius ? size.radius : 0.0;
+    return size.radius > kLeastWidth * beam_radius ? size : trace::WindowPlan::Size{};
 }
 
 // Half the length over which all of the beam lies in a ball of that radius about a point of the axis; 0 where it is
 // wider than the ball.
 double CellWindows::half_length(const trace::Beam& beam, double begin, double ball) const {
-    const double inner = ball - beam.noise_radius;
+    const double reach = glm::length(beam.origin) + glm::length(beam.noise_shift) + begin + 2.0 * ball;
+    const double inner = ball - beam.noise_radius - kPlace * reach;
     const double radius = beam.radius0 + beam.spread * (begin + 2.0 * ball);  // no less than at the far end
     if (!(inner > radius)) return 0.0;
     const double half = std::sqrt((inner - radius) * (inner + radius));
@@ -62,12 +65,11 @@ double CellWindows::half_length(const trace::Beam& beam, double begin, double ba
 bool CellWindows::extend(WindowChain& chain, std::vector<trace::Window>& windows) const {
     const CellBeam& cell = *chain.cell;
     const trace::Beam& beam = cell.beam;
-    std::uint32_t octaves = 0;
-    const double ball = next_radius(chain, octaves);
-    if (ball <= 0.0) return false;
+    const trace::WindowPlan::Size size = next_size(chain);
+    if (size.octaves == 0) return false;
     // Rays that come from this distance have at least that axis coordinate.
     const double from = (chain.s - cell.shift) * kSooner, begin = from * cell.cosine * kSooner;
-    const double half = half_length(beam, begin, ball);
+    const double half = half_length(beam, begin, size.radius);
     if (half <= 0.0) return false;
 
     const auto index = static_cast<std::uint32_t>(windows.size());
@@ -75,9 +77,9 @@ bool CellWindows::extend(WindowChain& chain, std::vector<trace::Window>& windows
     window.centre = beam.origin + (begin + half) * beam.direction + beam.noise_shift;
     window.from = from;
     window.to = (begin + 2.0 * half - cell.shift) * kSooner;
-    window.octaves = octaves;
+    window.octaves = size.octaves;
     const glm::dvec3 reach = glm::abs(window.centre);
-    window.error = plan_.error({octaves, ball}, std::max({reach.x, reach.y, reach.z}));
+    window.error = plan_.error(size, std::max({reach.x, reach.y, reach.z}));
     if (chain.length++ == 0) {
         chain.first = index;
     } else {
@@ -101,7 +103,8 @@ bool CellWindows::goes_on(WindowChain& chain, const trace::Window& window) const
     const double end = f + slope * chain.half;
     chain.slope = slope;
     chain.clearance = std::max(end - spread, 0.0);
-    const bool have_hit = end + spread<0.0, leave = slope> 0.0 && f > spread;
+    const bool have_hit = end + spread < 0.0;
+    const bool leave = slope > 0.0 && f > spread;
     return !have_hit && !leave && chain.length < kMostWindows;
 }
 

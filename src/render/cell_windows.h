@@ -49,7 +49,7 @@ class CellWindows {
     void build(WindowChains& out, trace::TraceCounters& counters) const;
 
   private:
-    double next_radius(const WindowChain& chain, std::uint32_t& octaves) const;
+    trace::WindowPlan::Size next_size(const WindowChain& chain) const;
     double half_length(const trace::Beam& beam, double begin, double ball) const;
     bool extend(WindowChain& chain, std::vector<trace::Window>& windows) const;
     bool goes_on(WindowChain& chain, const trace::Window& window) const;

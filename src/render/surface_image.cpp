@@ -196,8 +196,8 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
         const trace::Camera& camera = moved ? *moved : camera_;
         if (is_new_time) first = to_local(orientation, camera_ray(camera, samples.u[i], samples.v[i]), t);
         const trace::CameraRay seen = camera.ray(samples.u[i], samples.v[i]);
-        chunk.rays[i] = placement_.from_same_point(orientation, first, seen.direction,
-                                                   scene_.sampling.tolerance * seen.pixel_angle);
+        chunk.rays[i] = trace::Placement::from_same_point(orientation, first, seen.direction,
+                                                          scene_.sampling.tolerance * seen.pixel_angle);
         if (!chunk.start.empty()) {
             chunk.rays[i].start = chunk.start[i];
             chunk.rays[i].hint = chunk.hint[i];

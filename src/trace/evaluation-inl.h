@@ -23,7 +23,7 @@ constexpr float kCellsAhead = 0.3f;
 struct Evaluation {
     FloatVec f;      // base minus the evaluated octaves
     FloatVec error;  // of f
-    FloatVec slope;  // of f along the ray; of use where all octaves were evaluated
+    FloatVec slope;  // of f along the ray; of use where none is missing
     FloatVec base_slope;
     FloatPoint gradient;  // of the evaluated octaves, of f's sign
     FloatVec rest;        // bound of the octaves not evaluated
@@ -61,6 +61,7 @@ HWY_INLINE Evaluation without_octaves(const TracePlan& plan, const Field& field,
     at.slope = at.base_slope = base.slope;
     at.gradient = gradient;
     at.rest = at.bend = hn::Zero(d);
+    at.windowed = hn::Lt(at.bend, at.bend);  // none
     at.octaves = hn::Zero(WordTag());
     at.room = hn::Set(d, 1e30f);
     if constexpr (kWindows) {

@@ -17,14 +17,11 @@ constexpr std::size_t kIdleFraction = 4;
 // than some tolerances. Speed only.
 constexpr float kRelaxGain = 0.2f, kMostRelax = 0.9f, kRelaxAfterFailure = 0.0f, kLeastOverstep = 2.0f;
 
-// |f| below this many error bounds is settled in double.
-constexpr float kDoubtful = 1.0f;
-
 // Replaces f where float cannot tell its sign by the reference path's value in double.
 HWY_INLINE void settle_doubt(const Field& field, const TracePlan& plan, Packet& packet, const WidePoint& x,
                              Evaluation& at, TraceCounters& counters) {
     const FloatTag d;
-    const auto doubtful = hn::And(at.complete, hn::Le(hn::Abs(at.f), hn::Mul(at.error, hn::Set(d, kDoubtful))));
+    const auto doubtful = hn::And(at.complete, hn::Le(hn::Abs(at.f), at.error));
     if (HWY_LIKELY(hn::AllFalse(d, doubtful))) return;
     alignas(HWY_MAX_BYTES) double point[3][kMaxLanes];
     alignas(HWY_MAX_BYTES) float f[kMaxLanes], error[kMaxLanes], flag[kMaxLanes];
@@ -176,7 +173,7 @@ HWY_INLINE void find_out(const Field& field, const TracePlan& plan, Packet& pack
     const FloatVec safe = safe_step<kWindows>(plan, packet, at, delta_float, cache);
     auto inside = hn::Or(at.inside, hn::And(at.complete, hn::Le(at.f, hn::Zero(d))));
     if constexpr (kWindows) {
-        store_flag(hn::And(at.windowed, hn::Le(hn::Abs(at.f), at.error)), found.is_unsettled);
+        store_flag(hn::AndNot(hn::Gt(hn::Abs(at.f), at.error), at.windowed), found.is_unsettled);
         inside = hn::Or(inside, hn::And(at.windowed, hn::Lt(at.f, hn::Neg(at.error))));
     }
     store_flag(inside, found.is_hit);
@@ -253,8 +250,8 @@ HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, 
             go_back(packet, lane);
             continue;
         }
-        const bool is_hit = found.is_hit[lane] != 0.0f;
-        const bool is_miss = !is_hit && found.landing[lane] >= packet.end[lane];
+        const bool is_hit = is_covered && found.is_hit[lane] != 0.0f;
+        const bool is_miss = is_covered && !is_hit && found.landing[lane] >= packet.end[lane];
         if (is_hit || is_miss || is_last) {
             const HitState state = is_hit ? HitState::hit : is_miss ? HitState::miss : HitState::unresolved;
             end_ray<kWindows>(plan, packet, lane, state, found, hits, counters);

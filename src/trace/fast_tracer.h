@@ -9,6 +9,8 @@
 // the sign of f is in doubt more are, until it is certain whatever the rest; where float cannot tell it the reference
 // path decides in double.
 //
+// In a window (window.h) its polynomial stands for the octaves, and its error is part of the bound.
+//
 // A ray may land further than its safe step (over-relaxation: B. Keinert et al., "Enhanced Sphere Tracing", 2014): the
 // same bounds, taken backwards from there, then have to cover the stretch in between, else the ray goes back.
 #pragma once

@@ -25,7 +25,7 @@ struct Ray {
     double delta_slope = 0.0;
     double start = 0.0;              // f > 0 in [0, start) or wherever a bound does not cut it off
     float hint = 0.0f;               // step length to begin with; 0: unknown. Speed only
-    const Window* window = nullptr;  // the first of those that the ray may pass through. Speed only
+    const Window* window = nullptr;  // the first of those made for this ray, each of which holds along it
     std::uint32_t step_limit = kStepLimit;
 };
 
@@ -43,7 +43,8 @@ struct Hit {
     std::uint32_t steps = 0;
     std::uint32_t noise_evaluations = 0;
 
-    // Of f with its first `octaves` octaves alone, at a point within delta of s.
+    // Of f with its first `octaves` octaves alone, at a point within delta of s; or what a window's polynomial has for
+    // it there, off by up to kGradientError (window_plan.h).
     glm::vec3 gradient{0.0f};
     std::uint32_t octaves = 0;
 };

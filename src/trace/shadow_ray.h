@@ -19,6 +19,7 @@ inline Ray shadow_ray(const Ray& seen, const Hit& hit, const glm::dvec3& normal,
     ray.direction = to_light;
     ray.start = 0.0;
     ray.hint = 0.0f;
+    ray.window = nullptr;  // windows are along `seen`
     return ray;
 }
 

@@ -6,7 +6,8 @@
 #define STRATA_TRACE_WINDOW_LANES_INL_H_
 #endif
 
-#include <cmath>
+#include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "src/trace/base-inl.h"
@@ -51,6 +52,7 @@ struct WindowLanes {
     }
 
     void enter(std::size_t lane, const Window& window) {
+        assert(window.error > 0.0f);
         for (int a = 0; a < 3; ++a) {
             centre[a][lane] = window.centre[a];
             gradient[a][lane] = window.gradient[a];

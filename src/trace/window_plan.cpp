@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kUnit = 0x1p-24;
 
-// Covers the rounding of the ball's ends along a ray.
+// Covers the rounding of steps in float, 2^-24 of the ball's size.
 constexpr double kLarger = 1.01;
 
 }  // namespace
@@ -45,7 +45,8 @@ WindowPlan::Size WindowPlan::size(double error) const {
         const double cube = left / sums_[k].cube;
         if (cube > best.radius) best = {static_cast<std::uint32_t>(k), cube};
     }
-    best.radius = std::cbrt(best.radius);
+    if (best.octaves == 0) return best;
+    best.radius = std::min(std::cbrt(best.radius), std::sqrt(kGradientError / (3.0 * sums_[best.octaves].cube)));
     return best;
 }
 

@@ -2,19 +2,20 @@
 //
 // With e = 2^-24 and, over the first K octaves, A0 = sum a, A1 = sum a w G, A2 = sum a w^2 S, A3 = sum a w^3 T (G, S, T
 // the bounds of noise/bounds.h), the error in the ball of radius r is at most the sum of
-//   Taylor's remainder               A3 r^3 / 6
-//   float error of the octaves' jets  E_value A0 + E_slope r sum a w + 3/2 E_hessian r^2 sum a w^2   (float_error.h; a
-//                                     symmetric 3x3 matrix is no larger than three times its largest entry)
-//   sums over up to 32 octaves, each term with at most four roundings: 36 e A1 r and 3/2 36 e A2 r^2; those of the
-//   value
-//     are counted with f's own (trace_plan.h)
-//   evaluation of the polynomial, of its slope and bend along a ray over up to 2 r: D, the ray's direction and each of
-//     some 20 products and sums are rounded once. The terms with the gradient are off by at most 20 e A1 r in all,
-//     those with the Hessian, whose entries' absolute values form a matrix no larger than sqrt(3) times its norm, by 80
-//     e A2 r^2
-//   the octaves from K on: their bounds' sum
-//   the position of the centre, rounded once an octave: A1 2^-52 |centre + offset / w|, in length of the vector twice
-//     that.
+//   - the bounds of the octaves from K on
+//   - Taylor's remainder, A3 r^3 / 6
+//   - float errors of the octaves' jets, E_value A0 + E_slope r sum a w + 3/2 E_hessian r^2 sum a w^2 (float_error.h; a
+//     symmetric 3x3 matrix is no larger than three times its largest entry)
+//   - sums over up to 32 octaves, a term of the gradient with at most four roundings, of the Hessian with six:
+//     36 e A1 r and 38 e sqrt(3)/2 A2 r^2, less than 54 e A2 r^2; the value's are counted with f's own (trace_plan.h)
+//   - evaluation of the polynomial, and of its slope and bend along a ray over up to 2 r: D, the ray's direction and
+//     each of some 20 products and sums are rounded once. Terms with the gradient are off by 20 e A1 r at most: 5 in
+//     the value, 10 in the slope. Terms with the Hessian, whose entries' absolute values form a matrix no larger than
+//     sqrt(3) times its norm, by 80 e A2 r^2: 8 in the value, 35 in the slope, 28 in the bend
+//   - the position of the centre, rounded once an octave and axis: sqrt(3) A1 2^-53 |centre + offset / w|, of which
+//   four
+//     times as much is taken. How rounding displaces centre and ray is not part of it but of the ball's size
+//     (render/cell_windows.cpp).
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,9 @@
 #include "src/trace/field.h"
 
 namespace strata::trace {
+
+// The gradient of a window's polynomial is off by at most A3 r^2 / 2, kept below this; by a hundredth of it as a rule.
+inline constexpr double kGradientError = 0.25;
 
 class WindowPlan {
   public:

@@ -182,6 +182,31 @@ TEST_CASE("what a ray finds does not depend on whether its neighbours have windo
     }
 }
 
+TEST_CASE("a shadow ray owes nothing to the windows of the ray that found its hit") {
+    Random random(20061123);
+    std::size_t lit = 0;
+    for (int i = 0; i < 8; ++i) {
+        const Case c(smooth_surface(random, i), random, 300);
+        const WindowedRays with(c.field, c.rays, c.hits, c.pixel_angle, random);
+        std::vector<Ray> shadows, plain_shadows;
+        for (std::size_t k = 0; k < c.rays.size(); ++k) {
+            if (c.hits[k].state != trace::HitState::hit || with.rays[k].window == nullptr) continue;
+            const glm::dvec3 x = c.rays[k].origin + c.hits[k].s * c.rays[k].direction;
+            const glm::dvec3 normal = glm::normalize(c.field.gradient(x, c.rays[k].noise_shift));
+            const glm::dvec3 to_light = glm::normalize(normal + 0.99 * unit_vector(random));
+            shadows.push_back(trace::shadow_ray(with.rays[k], c.hits[k], normal, to_light));
+            plain_shadows.push_back(trace::shadow_ray(c.rays[k], c.hits[k], normal, to_light));
+        }
+        const Traced found = trace_all(c.tracer, shadows), plain = trace_all(c.tracer, plain_shadows);
+        for (std::size_t k = 0; k < shadows.size(); ++k) {
+            CHECK(shadows[k].window == nullptr);
+            CHECK(same(found.hits[k], plain.hits[k]));
+        }
+        lit += shadows.size();
+    }
+    CHECK(lit > 500);
+}
+
 TEST_CASE("normals of rays that hit in windows are those of all octaves, but for what the polynomial leaves out") {
     Random random(20061121);
     scene::Surface surface = surface_of(scene::SurfaceKind::hyperterrain);
@@ -193,19 +218,21 @@ TEST_CASE("normals of rays that hit in windows are those of all octaves, but for
     std::vector<Hit> hits(c.rays.size());
     trace::TraceCounters counters;
     c.tracer.trace(with.rays, hits, counters);
-    double total = 0.0;
+    double total = 0.0, greatest = 0.0;
     std::size_t count = 0;
     for (std::size_t k = 0; k < hits.size(); ++k) {
         if (hits[k].state != trace::HitState::hit || hits[k].noise_evaluations > 0) continue;
         const glm::dvec3 x = with.rays[k].origin + hits[k].s * with.rays[k].direction;
         std::vector<glm::vec3> gradient(1);
         c.tracer.gradients(std::span(hits).subspan(k, 1), std::span(&x, 1), {}, gradient, counters);
-        const glm::dvec3 exact = glm::normalize(c.field.gradient(x));
-        total += glm::distance(exact, glm::normalize(glm::dvec3(gradient[0])));
+        const double off = glm::distance(c.field.gradient(x), glm::dvec3(gradient[0]));
+        greatest = std::max(greatest, off);
+        total += off;
         ++count;
     }
     REQUIRE(count > 200);
-    MESSAGE(count << " hits without an evaluation of their own, mean angle to the exact normal "
-                  << total / static_cast<double>(count) << " rad");
+    MESSAGE(count << " hits without an evaluation of their own, gradients off by " << total / static_cast<double>(count)
+                  << " on average, " << greatest << " at most");
+    CHECK(greatest < trace::kGradientError);
     CHECK(total / static_cast<double>(count) < 0.01);
 }

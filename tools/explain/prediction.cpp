@@ -43,7 +43,7 @@ double strip_memory(const render::Window& window) {
 
 // Samples, rays and beams on their way in a thread. A tile may be less than a batch.
 double worker_memory(const render::Estimator& estimator, std::size_t batch_samples) {
-    constexpr double kRaysBytes = 1.1e6, kSampleBytes = 200;
+    constexpr double kRaysBytes = 1.5e6, kSampleBytes = 225;
     const double tile = std::pow(render::RenderOptions{}.tile, 2) * estimator.sample_count();
     const double batch = static_cast<double>(batch_samples);
     return kRaysBytes + kSampleBytes * (estimator.shared() ? batch : std::min(batch, tile));
