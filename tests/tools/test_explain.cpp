@@ -96,6 +96,16 @@ TEST_CASE("counts are predicted within a factor of 1.5 on every built-in scene")
     }
 }
 
+TEST_CASE("counts are predicted within a factor of 1.5 where many samples of a pixel share beams and windows") {
+    scene::Scene scene = small_builtin(*scene::find_builtin("hyperterrain"));
+    for (const int N : {1, 6, 10}) {
+        scene.sampling.N = N;
+        const Worst worst = worst_prediction(scene, whole(scene), render::Tracer::fast);
+        MESSAGE("N = " << N << ": off by " << worst.factor << " (" << worst.name << ")");
+        CHECK(worst.factor < 1.5);
+    }
+}
+
 TEST_CASE("counts are predicted within a factor of 1.5 for every estimator, for a crop and for the reference tracer") {
     scene::Scene scene = small_builtin(*scene::find_builtin("terrain"));
     scene.surface.octaves = 6;
@@ -132,7 +142,7 @@ TEST_CASE("a pilot takes a hundredth of the rays, no fewer than its least and no
             const std::uint64_t allowed = pilot_rays(rays, Tracer::fast);
             const PilotRun run = run_pilot(*image, settings, {0, 0, side, side}, allowed);
             CHECK(run.counters.rays <= allowed);
-            CHECK(2 * run.counters.rays > std::min<std::uint64_t>(allowed, std::uint64_t{16} * side * side));
+            CHECK(2 * run.counters.rays > allowed);
         }
     }
 }
@@ -242,7 +252,8 @@ TEST_CASE("the JSON holds what its help promises") {
         CHECK(json["costs"].size() == 9);
         CHECK(json["costs"]["rays"]["predicted"] == 128 * 72 * 4);
         CHECK(json["costs"]["rays"]["actual"].is_null());
-        CHECK(json["pilot"]["rays"] == 4096);
+        CHECK(json["pilot"]["rays"] <= 4096);
+        CHECK(json["pilot"]["rays"] > 3000);
         for (const auto& each : json["features"]) CHECK(each["needed"].is_boolean());
         CHECK(explanation_text(explanation).find("left out") != std::string::npos);
     }

@@ -11,8 +11,9 @@ namespace strata::tools {
 
 namespace {
 
-constexpr std::int64_t kLeastRuns = 256;
-constexpr std::int64_t kLongestRun = 32;  // as wide as a render's tiles
+constexpr double kLeastBlocks = 64;   // if there are as many pixels
+constexpr double kBlockSamples = 32;  // a side: enough to share what a render's samples share
+constexpr double kWidestBlock = 32;   // pixels: as wide as a render's tiles
 
 double cpu_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -24,22 +25,30 @@ class Constant final : public render::ImageFunction {
     }
 };
 
-// Pixels or cells, in runs of neighbours.
-std::vector<glm::ivec2> choose_owners(const render::Window& window, std::int64_t wanted) {
-    const std::int64_t total = std::int64_t{1} * window.width() * window.height();
-    wanted = std::clamp<std::int64_t>(wanted, 1, total);
-    const std::int64_t length = std::clamp<std::int64_t>(wanted / kLeastRuns, 1, kLongestRun);
-    const std::int64_t runs = std::max<std::int64_t>(1, wanted / length);
-    constexpr double kGoldenRatio = 0.6180339887498949;
+// Where a block of that side begins in the n-th of equal parts of [from, to).
+int block_start(int from, int to, std::int64_t n, std::int64_t parts, int side, double place) {
+    const double part = static_cast<double>(to - from) / static_cast<double>(parts);
+    const double first = from + part * static_cast<double>(n) + place * std::max(0.0, part - side);
+    return std::clamp(static_cast<int>(first), from, std::max(from, to - side));
+}
+
+// About `wanted` pixels or cells in square blocks, one in each of nearly square parts of the window.
+std::vector<glm::ivec2> choose_owners(const render::Window& window, std::int64_t wanted, int samples_a_side) {
+    const double total = 1.0 * window.width() * window.height();
+    const double pixels = std::clamp(static_cast<double>(wanted), 1.0, total);
+    const double widest = std::clamp(kBlockSamples / samples_a_side, 1.0, kWidestBlock);
+    const int side = static_cast<int>(std::clamp(std::sqrt(pixels / kLeastBlocks), 1.0, widest));
+    const double blocks = std::max(1.0, pixels / (side * side)), part = std::sqrt(total / blocks);
+    const auto columns = std::max<std::int64_t>(1, std::llround(window.width() / part));
+    const auto rows = std::max<std::int64_t>(1, static_cast<std::int64_t>(blocks / static_cast<double>(columns)));
+    constexpr double kGoldenRatio = 0.6180339887498949, kSecondRatio = 0.7548776662466927;
     std::vector<glm::ivec2> owners;
-    for (std::int64_t run = 0; run < runs; ++run) {
-        const std::int64_t begin = total * run / runs, end = total * (run + 1) / runs;
-        const std::int64_t count = std::min(length, end - begin);
-        const double place = std::fmod(kGoldenRatio * (static_cast<double>(run) + 0.5), 1.0);
-        const auto first = begin + static_cast<std::int64_t>(place * static_cast<double>(end - begin - count + 1));
-        for (std::int64_t i = first; i < first + count; ++i) {
-            owners.emplace_back(window.x0 + static_cast<int>(i % window.width()),
-                                window.y0 + static_cast<int>(i / window.width()));
+    for (std::int64_t i = 0; i < rows * columns; ++i) {
+        const double n = static_cast<double>(i) + 0.5;
+        const int x0 = block_start(window.x0, window.x1, i % columns, columns, side, std::fmod(n * kGoldenRatio, 1.0));
+        const int y0 = block_start(window.y0, window.y1, i / columns, rows, side, std::fmod(n * kSecondRatio, 1.0));
+        for (int y = y0; y < std::min(y0 + side, window.y1); ++y) {
+            for (int x = x0; x < std::min(x0 + side, window.x1); ++x) owners.emplace_back(x, y);
         }
     }
     return owners;
@@ -49,11 +58,9 @@ std::vector<glm::ivec2> choose_owners(const render::Window& window, std::int64_t
 
 PilotRun run_pilot(const render::ImageFunction& image, const render::EstimatorSettings& settings,
                    const render::Window& owners, std::uint64_t rays) {
-    render::EstimatorSettings coarse = settings;
-    coarse.N = std::min(settings.N, kPilotN);
-    const render::Estimator estimator(coarse);
+    const render::Estimator estimator(settings);
     const auto samples = static_cast<std::size_t>(estimator.sample_count());
-    const std::vector<glm::ivec2> chosen = choose_owners(owners, static_cast<std::int64_t>(rays / samples));
+    const std::vector<glm::ivec2> chosen = choose_owners(owners, static_cast<std::int64_t>(rays / samples), settings.N);
     const std::size_t batch = std::max<std::size_t>(1, image.batch_samples() / samples);
     PilotRun pilot;
     render::SampleSet set;

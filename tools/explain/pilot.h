@@ -14,10 +14,9 @@ struct PilotRun {
     double cpu_seconds = 0.0;  // of evaluating the image function
 };
 
-// About `rays` samples (all, if there are no more) of those that pixels of the window take, or cells, where samples are
-// shared: short runs of neighbours, one in each of equal stretches of the window's rows, so that they cover it evenly
-// and travel in packets like a render's. Pixels give at most kPilotN^2 samples, for there to be many pixels.
-inline constexpr int kPilotN = 4;
+// About `rays` samples (all, if there are no more; at least a pixel's) of those that pixels of the window take, or
+// cells, where samples are shared: small blocks of neighbours all over the window, which share what a render's samples
+// share.
 PilotRun run_pilot(const render::ImageFunction& image, const render::EstimatorSettings& settings,
                    const render::Window& owners, std::uint64_t rays);
 
