@@ -11,7 +11,7 @@ namespace strata::tools {
 
 namespace {
 
-constexpr double kLeastBlocks = 64;   // if there are as many pixels
+constexpr double kLeastBlocks = 24;   // if there are as many pixels
 constexpr double kBlockSamples = 32;  // a side: enough to share what a render's samples share
 constexpr double kWidestBlock = 32;   // pixels: as wide as a render's tiles
 
