@@ -201,10 +201,9 @@ HWY_INLINE void end_ray(const TracePlan& plan, Packet& packet, std::size_t lane,
     Hit& hit = hits[packet.ray[lane]];
     report(packet, lane, state, found.f[lane], found.slope[lane], hit);
     hit.gradient = {found.gradient[0][lane], found.gradient[1][lane], found.gradient[2][lane]};
-    hit.octaves = found.octaves[lane];
-    if (kWindows && packet.windows.holds(lane)) {
-        hit.octaves = packet.windows.octaves[lane];
-    } else if (state == HitState::hit) {
+    hit.octaves = found.octaves[lane];  // in a window none
+    const bool in_window = kWindows && packet.windows.holds(lane);
+    if (state == HitState::hit && !in_window) {
         counters.left_out.settled += plan.octaves.size() - hit.octaves;
         counters.left_out.too_fine -= plan.octaves.size() - hit.octaves;
     }

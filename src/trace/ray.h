@@ -43,8 +43,7 @@ struct Hit {
     std::uint32_t steps = 0;
     std::uint32_t noise_evaluations = 0;
 
-    // Of f with its first `octaves` octaves alone, at a point within delta of s; or what a window's polynomial has for
-    // it there, off by up to kGradientError (window_plan.h).
+    // Of f with its first `octaves` octaves alone, at a point within delta of s.
     glm::vec3 gradient{0.0f};
     std::uint32_t octaves = 0;
 };

@@ -3,7 +3,7 @@
 // In a ball of the noise's domain around its centre (in 2-D: a disc) the sum of all octaves differs from
 // value + gradient . D + D^T hessian D / 2,  D = x - centre, all of it evaluated in float, by less than `error`
 // (window_plan.h). While it is in there a ray takes the polynomial for the noise; where the error keeps it from telling
-// f's sign it goes on without. The polynomial holds the octaves that matter there, the normal the others as well.
+// f's sign it goes on without. Normals are of the noise itself.
 #pragma once
 
 #include <array>

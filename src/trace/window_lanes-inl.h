@@ -25,7 +25,6 @@ struct WindowLanes {
     alignas(HWY_MAX_BYTES) float gradient[3][kMaxLanes] = {};
     alignas(HWY_MAX_BYTES) float hessian[6][kMaxLanes] = {};
     alignas(HWY_MAX_BYTES) float error[kMaxLanes] = {};
-    std::uint32_t octaves[kMaxLanes] = {};
     double begins[kMaxLanes] = {};       // where a lane without a window may look for the next one
     const Window* next[kMaxLanes] = {};  // the first that the ray may enter yet
 
@@ -61,7 +60,6 @@ struct WindowLanes {
         exit[lane] = window.to;
         value[lane] = window.value;
         error[lane] = window.error;
-        octaves[lane] = window.octaves;
         next[lane] = window.after();
     }
 };

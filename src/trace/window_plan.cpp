@@ -45,8 +45,7 @@ WindowPlan::Size WindowPlan::size(double error) const {
         const double cube = left / sums_[k].cube;
         if (cube > best.radius) best = {static_cast<std::uint32_t>(k), cube};
     }
-    if (best.octaves == 0) return best;
-    best.radius = std::min(std::cbrt(best.radius), std::sqrt(kGradientError / (3.0 * sums_[best.octaves].cube)));
+    best.radius = std::cbrt(best.radius);
     return best;
 }
 

@@ -25,9 +25,6 @@
 
 namespace strata::trace {
 
-// The gradient of a window's polynomial is off by at most A3 r^2 / 2, kept below this; by a hundredth of it as a rule.
-inline constexpr double kGradientError = 0.25;
-
 class WindowPlan {
   public:
     explicit WindowPlan(const Field& field);

@@ -207,7 +207,7 @@ TEST_CASE("a shadow ray owes nothing to the windows of the ray that found its hi
     CHECK(lit > 500);
 }
 
-TEST_CASE("normals of rays that hit in windows are those of all octaves, but for what the polynomial leaves out") {
+TEST_CASE("normals of hits in windows are of the noise, not of the window's polynomial") {
     Random random(20061121);
     scene::Surface surface = surface_of(scene::SurfaceKind::hyperterrain);
     surface.octaves = 6;
@@ -218,21 +218,14 @@ TEST_CASE("normals of rays that hit in windows are those of all octaves, but for
     std::vector<Hit> hits(c.rays.size());
     trace::TraceCounters counters;
     c.tracer.trace(with.rays, hits, counters);
-    double total = 0.0, greatest = 0.0;
     std::size_t count = 0;
     for (std::size_t k = 0; k < hits.size(); ++k) {
         if (hits[k].state != trace::HitState::hit || hits[k].noise_evaluations > 0) continue;
         const glm::dvec3 x = with.rays[k].origin + hits[k].s * with.rays[k].direction;
         std::vector<glm::vec3> gradient(1);
         c.tracer.gradients(std::span(hits).subspan(k, 1), std::span(&x, 1), {}, gradient, counters);
-        const double off = glm::distance(c.field.gradient(x), glm::dvec3(gradient[0]));
-        greatest = std::max(greatest, off);
-        total += off;
+        CHECK(glm::distance(c.field.gradient(x), glm::dvec3(gradient[0])) < 1e-4);
         ++count;
     }
-    REQUIRE(count > 200);
-    MESSAGE(count << " hits without an evaluation of their own, gradients off by " << total / static_cast<double>(count)
-                  << " on average, " << greatest << " at most");
-    CHECK(greatest < trace::kGradientError);
-    CHECK(total / static_cast<double>(count) < 0.01);
+    CHECK(count > 200);
 }

@@ -159,7 +159,8 @@ std::vector<Row> same_picture(const std::string& scene_name, const Motion& motio
             continue;
         }
         if (!height_field || a.hits[i].state != trace::HitState::hit) continue;
-        const double bound = radiance_bound(at_rest.field(), apart);
+        // Each normal is of a point within delta of its hit.
+        const double bound = radiance_bound(at_rest.field(), apart + 2.0 * delta);
         largest = std::max(largest, bound);
         ratio.see(std::abs(a.radiance[i] - b.radiance[i]) / bound, replay);
         radiance.see(std::abs(a.radiance[i] - b.radiance[i]), replay);
