@@ -21,7 +21,7 @@ struct WindowChain {
     double s = 0.0;                  // axis coordinate of where the next window begins
     double slope = 0.0;              // of f along the axis there, about
     double clearance = 0.0;          // of f there, over the beam's width, about; 0: unknown
-    double half = 0.0;               // length of the last window along the axis
+    double half = 0.0;               // half the length of the last window along the axis
     std::uint32_t first = 0;         // windows[first] is the first of the chain, windows[last] the last
     std::uint32_t last = 0;
     int length = 0;

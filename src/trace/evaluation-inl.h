@@ -54,12 +54,11 @@ HWY_INLINE Evaluation without_octaves(const TracePlan& plan, const Field& field,
                                       const WidePoint& x, const WidePoint& noise_x, const WidePoint& direction) {
     const FloatTag d;
     const Base base = base_at<kKind>(field, x, direction);
-    const FloatPoint gradient = base_gradient_at<kKind>(x);
     Evaluation at;
     at.f = base.value;
     at.error = hn::MulAdd(hn::Abs(base.value), hn::Set(d, plan.error_relative), hn::Set(d, plan.error_absolute));
     at.slope = at.base_slope = base.slope;
-    at.gradient = gradient;
+    at.gradient = base_gradient_at<kKind>(x);
     at.rest = at.bend = hn::Zero(d);
     at.windowed = hn::Lt(at.bend, at.bend);  // none
     at.octaves = hn::Zero(WordTag());
@@ -69,8 +68,6 @@ HWY_INLINE Evaluation without_octaves(const TracePlan& plan, const Field& field,
         at.f = hn::Sub(at.f, part.value);
         at.error = hn::Add(at.error, part.error);
         at.slope = at.base_slope = hn::Sub(base.slope, part.slope);
-        at.gradient = {hn::Sub(gradient.x, part.gradient.x), hn::Sub(gradient.y, part.gradient.y),
-                       hn::Sub(gradient.z, part.gradient.z)};
         at.windowed = hn::Gt(part.error, hn::Zero(d));
         at.bend = hn::Max(part.bend, hn::Zero(d));
         const FloatVec room = to_float(sub(load_wide(packet.windows.exit), load_wide(packet.s)));

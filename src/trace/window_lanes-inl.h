@@ -75,10 +75,9 @@ HWY_INLINE void change_window(WindowLanes& lanes, std::size_t lane, double s, do
     lanes.begins[lane] = window->from;
 }
 
-// What the windows say of their octaves' sum at x in the noise's domain.
+// What the windows say of the noise at x in its domain.
 struct WindowPart {
     FloatVec value, slope, bend;  // along the ray; slope and half the second derivative, per unit length
-    FloatPoint gradient;
     FloatVec error;
 };
 
@@ -100,7 +99,7 @@ HWY_INLINE WindowPart window_part(const WindowLanes& lanes, const WidePoint& x, 
                                hn::MulAdd(half, turn.z, gradient.z)};
     const FloatPoint here = {hn::Add(gradient.x, turn.x), hn::Add(gradient.y, turn.y), hn::Add(gradient.z, turn.z)};
     return {hn::Add(load(lanes.value), dot(middle, off)), dot(here, direction),
-            hn::Mul(half, dot(times(direction), direction)), here, load(lanes.error)};
+            hn::Mul(half, dot(times(direction), direction)), load(lanes.error)};
 }
 
 }  // namespace strata::trace::HWY_NAMESPACE
