@@ -5,7 +5,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "src/trace/evaluation-inl.h"
+#include "src/trace/lane_bits-inl.h"
+#include "src/trace/safe_step-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::trace::HWY_NAMESPACE {
@@ -46,61 +47,6 @@ HWY_INLINE void settle_doubt(const Field& field, const TracePlan& plan, Packet& 
     at.error = hn::Load(d, error);
 }
 
-// The longest step that is certified to stay outside the surface.
-template <bool kWindows>
-HWY_INLINE FloatVec safe_step(const TracePlan& plan, const Packet& packet, const Evaluation& at, FloatVec delta,
-                              const OctaveCache& cache) {
-    const FloatTag d;
-    const FloatVec speed = hn::Load(d, packet.speed), hint = hn::Min(hn::Load(d, packet.hint), at.room);
-    const FloatVec certain = hn::Sub(at.f, hn::Add(at.rest, at.error));
-    const FloatVec slope = hn::Sub(at.base_slope, hn::Set(d, plan.slope_error));
-    const auto solve = [&](const OctaveBounds& bounds, FloatVec step) HWY_ATTR {
-        const FloatVec root =
-            first_root(hn::Sub(certain, bounds.drop), hn::MulAdd(slope, step, bounds.slope), bounds.bend);
-        return hn::Mul(root, step);
-    };
-    // The global Lipschitz step is where to look again when the hint was so far off that it gave no step.
-    const FloatVec first = solve(at.bounds, hint);
-    const FloatVec least = hn::Mul(hn::Max(certain, hn::Zero(d)), hn::Set(d, plan.inverse_lipschitz));
-    const FloatVec again = hn::Min(hn::Max(hn::Max(first, delta), least), hn::Min(at.room, hn::Set(d, 1e15f)));
-    const FloatVec span = hn::Mul(again, speed);
-    OctaveBounds bounds = window_bounds<kWindows>(at, again);
-    for (std::size_t k = 0; k < cache.count; ++k) {
-        const TraceOctave& octave = plan.octaves[k];
-        // The span first: a vertical ray's speed of 0 must not meet an infinite product.
-        const FloatVec wave = hn::Set(d, octave.wave);
-        bounds = add_octave(bounds, plan, octave, cache.value[k], cache.slope[k], hn::Mul(wave, again),
-                            hn::Mul(wave, span), uses_octave(at, k));
-    }
-    return hn::Min(hn::Max(first, solve(bounds, again)), at.room);
-}
-
-// Lanes whose stretch of length packet.over behind them is free, by bounds taken backwards. f is at least a concave
-// parabola there, so it is positive in between where it is at both ends.
-template <bool kWindows>
-HWY_INLINE hn::Mask<FloatTag> covers_overstep(const TracePlan& plan, const Packet& packet, const Evaluation& at,
-                                              const OctaveCache& cache) {
-    const FloatTag d;
-    const FloatVec over = hn::Load(d, packet.over), span = hn::Mul(over, hn::Load(d, packet.speed));
-    const auto lands = hn::Le(over, hn::Zero(d));
-    if (HWY_LIKELY(hn::AllTrue(d, lands))) return lands;
-    OctaveBounds bounds = window_bounds<kWindows>(at, over);
-    for (std::size_t k = 0; k < cache.count; ++k) {
-        const FloatVec wave = hn::Set(d, plan.octaves[k].wave);
-        bounds = add_octave(bounds, plan, plan.octaves[k], cache.value[k], hn::Neg(cache.slope[k]), hn::Mul(wave, over),
-                            hn::Mul(wave, span), uses_octave(at, k));
-    }
-    const FloatVec here = hn::Sub(hn::Sub(at.f, hn::Add(at.rest, at.error)), bounds.drop);
-    const FloatVec base_slope = hn::Add(at.base_slope, hn::Set(d, plan.slope_error));
-    const FloatVec climb = hn::NegMulAdd(base_slope, over, bounds.slope);
-    // What is added up here has been rounded a few times.
-    const FloatVec size = hn::Add(here, hn::Add(hn::Abs(climb), bounds.bend));
-    const FloatVec there = hn::Sub(hn::Add(here, climb), bounds.bend);
-    const auto is_free = hn::And(hn::Gt(here, hn::Zero(d)),
-                                 hn::Gt(there, hn::Mul(size, hn::Set(d, static_cast<float>(kRoundUp - 1.0)))));
-    return hn::Or(lands, is_free);
-}
-
 // The root within the last step, by its slope: f <= 0 here, f > 0 at s_outside.
 HWY_INLINE double refine(double s, double s_outside, float f, float slope) {
     const double width = s - s_outside;
@@ -117,39 +63,21 @@ HWY_INLINE void report(const Packet& packet, std::size_t lane, HitState state, f
     hit.s = state == HitState::hit ? refine(packet.s[lane], hit.s_outside, f, slope) : packet.s[lane];
 }
 
-// To where the ray may land, from an overstep that was not covered.
-HWY_INLINE void go_back(Packet& packet, std::size_t lane) {
-    const double clear = packet.s_outside[lane];
-    packet.hint[lane] = packet.over[lane];
-    packet.s[lane] -= static_cast<double>(packet.over[lane]);
-    packet.s[lane] = std::max(packet.s[lane], clear);
-    packet.over[lane] = 0.0f;
-    packet.relax[lane] = kRelaxAfterFailure;
-}
-
-// What a step found out, a lane each.
+// What a step found out of every lane.
 struct Outcome {
-    alignas(HWY_MAX_BYTES) float f[kMaxLanes];
-    alignas(HWY_MAX_BYTES) float slope[kMaxLanes];
-    alignas(HWY_MAX_BYTES) float gradient[3][kMaxLanes];
-    alignas(HWY_MAX_BYTES) std::uint32_t octaves[kMaxLanes];
-    alignas(HWY_MAX_BYTES) float is_hit[kMaxLanes];
-    alignas(HWY_MAX_BYTES) float is_covered[kMaxLanes];
-    alignas(HWY_MAX_BYTES) float is_unsettled[kMaxLanes];  // a window's error leaves f's sign in doubt
-    alignas(HWY_MAX_BYTES) double clear[kMaxLanes];        // up to where the ray is free
-    alignas(HWY_MAX_BYTES) double landing[kMaxLanes];      // how far it may go
-    alignas(HWY_MAX_BYTES) float over[kMaxLanes];          // how much further it might
+    FloatVec f, slope;
+    FloatPoint gradient;
+    WordVec octaves;
+    hn::Mask<FloatTag> is_hit, is_covered;
+    hn::Mask<FloatTag> is_unsettled;  // a window's error leaves f's sign in doubt
+    Wide clear;                       // up to where the ray is free
+    Wide landing;                     // how far it may go
+    FloatVec over;                    // how much further it might
 };
-
-HWY_INLINE void store_flag(hn::Mask<FloatTag> flag, float* to) {
-    const FloatTag d;
-    hn::Store(hn::IfThenElseZero(flag, hn::Set(d, 1.0f)), d, to);
-}
 
 // Evaluates every active lane's point. The step that it allows is the next hint.
 template <SurfaceKind kKind, bool kDrifts, bool kWindows>
-HWY_INLINE void find_out(const Field& field, const TracePlan& plan, Packet& packet, Outcome& found,
-                         TraceCounters& counters) {
+HWY_INLINE Outcome find_out(const Field& field, const TracePlan& plan, Packet& packet, TraceCounters& counters) {
     const FloatTag d;
     const WordTag dw;
     const WidePoint direction = load_point(packet.direction);
@@ -171,33 +99,49 @@ HWY_INLINE void find_out(const Field& field, const TracePlan& plan, Packet& pack
     const Wide delta = mul_add(load_wide(packet.delta_slope), s, load_wide(packet.delta0));
     const FloatVec delta_float = to_float(delta);
     const FloatVec safe = safe_step<kWindows>(plan, packet, at, delta_float, cache);
-    auto inside = hn::Or(at.inside, hn::And(at.complete, hn::Le(at.f, hn::Zero(d))));
+    Outcome found;
+    found.is_hit = hn::Or(at.inside, hn::And(at.complete, hn::Le(at.f, hn::Zero(d))));
     if constexpr (kWindows) {
-        store_flag(hn::AndNot(hn::Gt(hn::Abs(at.f), at.error), at.windowed), found.is_unsettled);
-        inside = hn::Or(inside, hn::And(at.windowed, hn::Lt(at.f, hn::Neg(at.error))));
+        found.is_unsettled = hn::AndNot(hn::Gt(hn::Abs(at.f), at.error), at.windowed);
+        found.is_hit = hn::Or(found.is_hit, hn::And(at.windowed, hn::Lt(at.f, hn::Neg(at.error))));
     }
-    store_flag(inside, found.is_hit);
-    store_flag(covers_overstep<kWindows>(plan, packet, at, cache), found.is_covered);
-    hn::Store(at.f, d, found.f);
-    hn::Store(at.slope, d, found.slope);
-    hn::Store(at.gradient.x, d, found.gradient[0]);
-    hn::Store(at.gradient.y, d, found.gradient[1]);
-    hn::Store(at.gradient.z, d, found.gradient[2]);
-    hn::Store(at.octaves, dw, found.octaves);
+    found.is_covered = covers_overstep<kWindows>(plan, packet, at, cache);
+    found.f = at.f;
+    found.slope = at.slope;
+    found.gradient = at.gradient;
+    found.octaves = at.octaves;
     hn::Store(hn::Min(hn::Max(hn::Max(safe, delta_float), hn::Set(d, 1e-30f)), hn::Set(d, 1e15f)), d, packet.hint);
     // Near the surface there is nothing to be gained.
     const FloatVec further = hn::Mul(hn::Min(safe, hn::Set(d, 1e15f)), hn::Load(d, packet.relax));
     const auto is_far = hn::Gt(further, hn::Mul(delta_float, hn::Set(d, kLeastOverstep)));
-    hn::Store(hn::IfThenElseZero(is_far, further), d, found.over);
-    const Wide clear = add(s, to_wide(safe));
-    store_wide(clear, found.clear);
-    store_wide(add(clear, delta), found.landing);
+    found.over = hn::IfThenElseZero(is_far, further);
+    found.clear = add(s, to_wide(safe));
+    found.landing = add(found.clear, delta);
+    return found;
 }
+
+// What of an Outcome is read lane by lane.
+struct StoredOutcome {
+    explicit StoredOutcome(const Outcome& found) {
+        const FloatTag d;
+        hn::Store(found.f, d, f);
+        hn::Store(found.slope, d, slope);
+        hn::Store(found.gradient.x, d, gradient[0]);
+        hn::Store(found.gradient.y, d, gradient[1]);
+        hn::Store(found.gradient.z, d, gradient[2]);
+        hn::Store(found.octaves, WordTag(), octaves);
+    }
+
+    alignas(HWY_MAX_BYTES) float f[kMaxLanes];
+    alignas(HWY_MAX_BYTES) float slope[kMaxLanes];
+    alignas(HWY_MAX_BYTES) float gradient[3][kMaxLanes];
+    alignas(HWY_MAX_BYTES) std::uint32_t octaves[kMaxLanes];
+};
 
 // Reports the lane's ray and lets it go.
 template <bool kWindows>
-HWY_INLINE void end_ray(const TracePlan& plan, Packet& packet, std::size_t lane, HitState state, const Outcome& found,
-                        std::span<Hit> hits, TraceCounters& counters) {
+HWY_INLINE void end_ray(const TracePlan& plan, Packet& packet, std::size_t lane, HitState state,
+                        const StoredOutcome& found, std::span<Hit> hits, TraceCounters& counters) {
     Hit& hit = hits[packet.ray[lane]];
     report(packet, lane, state, found.f[lane], found.slope[lane], hit);
     hit.gradient = {found.gradient[0][lane], found.gradient[1][lane], found.gradient[2][lane]};
@@ -212,51 +156,71 @@ HWY_INLINE void end_ray(const TracePlan& plan, Packet& packet, std::size_t lane,
     drop_lane(packet, lane);
 }
 
-// To where the ray may land and, it is hoped, further.
+// To where the rays may land, from oversteps that were not covered.
+HWY_INLINE void go_back(Packet& packet, hn::Mask<FloatTag> lanes) {
+    const FloatTag d;
+    const FloatVec over = hn::Load(d, packet.over);
+    const Wide s = load_wide(packet.s);
+    const Wide landing = max(sub(s, to_wide(over)), load_wide(packet.s_outside));
+    store_lanes(lanes, over, packet.hint);
+    store_lanes(lanes, hn::Zero(d), packet.over);
+    store_lanes(lanes, hn::Set(d, kRelaxAfterFailure), packet.relax);
+    store_wide(select(widen(lanes), landing, s), packet.s);
+}
+
+// To where the rays may land and, it is hoped, further.
 template <bool kWindows>
-HWY_INLINE void go_on(Packet& packet, std::size_t lane, const Outcome& found) {
-    const double landing = found.landing[lane];
-    float over = found.over[lane];
+HWY_INLINE void go_on(Packet& packet, hn::Mask<FloatTag> lanes, const Outcome& found) {
+    const FloatTag d;
+    const FloatVec relax = hn::Min(hn::Add(hn::Load(d, packet.relax), hn::Set(d, kRelaxGain)), hn::Set(d, kMostRelax));
+    FloatVec over = found.over;
     if constexpr (kWindows) {
-        over = std::min(over, static_cast<float>(std::max(packet.windows.exit[lane] - landing, 0.0)));
+        const FloatVec room = to_float(sub(load_wide(packet.windows.exit), found.landing));
+        over = hn::Min(over, hn::Max(room, hn::Zero(d)));
     }
-    packet.s_outside[lane] = found.clear[lane];
-    packet.relax[lane] = std::min(packet.relax[lane] + kRelaxGain, kMostRelax);
-    packet.over[lane] = over;
-    packet.s[lane] = landing + static_cast<double>(over);
-    if (kWindows && packet.windows.changes(lane, packet.s[lane])) {
-        change_window(packet.windows, lane, landing, static_cast<double>(over));
-    }
+    const Wide ahead = add(found.landing, to_wide(over));
+    const WideMask wide_lanes = widen(lanes);
+    store_lanes(lanes, relax, packet.relax);
+    store_lanes(lanes, over, packet.over);
+    store_wide(select(wide_lanes, found.clear, load_wide(packet.s_outside)), packet.s_outside);
+    store_wide(select(wide_lanes, ahead, load_wide(packet.s)), packet.s);
+    if constexpr (kWindows) change_windows(packet.windows, lanes, ahead, found.landing, over);
 }
 
 // One step of every active lane; lanes that finish report and become idle.
 template <SurfaceKind kKind, bool kDrifts, bool kWindows>
 HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, std::span<Hit> hits,
                      TraceCounters& counters) {
-    Outcome found;
-    find_out<kKind, kDrifts, kWindows>(field, plan, packet, found, counters);
-    for (std::size_t lane = 0; lane < hn::Lanes(FloatTag()); ++lane) {
-        if (packet.ray[lane] == kNoRay) continue;
-        const bool is_covered = found.is_covered[lane] != 0.0f;
-        if (kWindows && is_covered && found.is_unsettled[lane] != 0.0f) {
-            packet.windows.leave(lane);  // and looks again: not a step
-            continue;
-        }
-        ++packet.steps[lane];
-        ++counters.steps;
-        const bool is_last = packet.steps[lane] >= packet.step_limit[lane];
-        if (!is_covered && !is_last) {
-            go_back(packet, lane);
-            continue;
-        }
-        const bool is_hit = is_covered && found.is_hit[lane] != 0.0f;
-        const bool is_miss = is_covered && !is_hit && found.landing[lane] >= packet.end[lane];
-        if (is_hit || is_miss || is_last) {
-            const HitState state = is_hit ? HitState::hit : is_miss ? HitState::miss : HitState::unresolved;
-            end_ray<kWindows>(plan, packet, lane, state, found, hits, counters);
-        } else {
-            go_on<kWindows>(packet, lane, found);
-        }
+    const FloatTag d;
+    const WordTag dw;
+    const Outcome found = find_out<kKind, kDrifts, kWindows>(field, plan, packet, counters);
+    auto steps = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
+    if constexpr (kWindows) {
+        const auto unsettled = hn::And(steps, hn::And(found.is_covered, found.is_unsettled));
+        steps = hn::AndNot(unsettled, steps);  // those leave their window and look again: not a step
+        for (const std::size_t lane : LaneSet(unsettled)) packet.windows.leave(lane);
+    }
+    const WordVec taken =
+        hn::Add(hn::Load(dw, packet.steps), hn::IfThenElseZero(hn::RebindMask(dw, steps), hn::Set(dw, 1u)));
+    hn::Store(taken, dw, packet.steps);
+    counters.steps += hn::CountTrue(d, steps);
+    const WordVec limit = hn::Load(dw, packet.step_limit);
+    const auto is_last = hn::RebindMask(d, hn::Eq(hn::Max(taken, limit), taken));
+    const auto covered = hn::And(steps, found.is_covered);
+    const auto hit = hn::And(covered, found.is_hit);
+    const auto past_end = narrow(greater_equal(found.landing, load_wide(packet.end)));
+    const auto miss = hn::AndNot(hit, hn::And(covered, past_end));
+    const auto ends = hn::Or(hn::Or(hit, miss), hn::And(steps, is_last));
+    go_back(packet, hn::AndNot(ends, hn::AndNot(covered, steps)));
+    go_on<kWindows>(packet, hn::AndNot(ends, covered), found);
+    if (hn::AllFalse(d, ends)) return;
+    const StoredOutcome stored(found);
+    const LaneSet hits_of(hit), misses(miss);
+    for (const std::size_t lane : LaneSet(ends)) {
+        const HitState state = hits_of.contains(lane)  ? HitState::hit
+                               : misses.contains(lane) ? HitState::miss
+                                                       : HitState::unresolved;
+        end_ray<kWindows>(plan, packet, lane, state, stored, hits, counters);
     }
 }
 

@@ -39,8 +39,8 @@ struct Packet {
     alignas(HWY_MAX_BYTES) float relax[kMaxLanes] = {};   // how far to overstep next, in safe steps
     alignas(HWY_MAX_BYTES) float active[kMaxLanes] = {};  // 1 or 0
     alignas(HWY_MAX_BYTES) std::uint32_t evaluations[kMaxLanes] = {};
-    std::uint32_t steps[kMaxLanes] = {};
-    std::uint32_t step_limit[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) std::uint32_t steps[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) std::uint32_t step_limit[kMaxLanes] = {};
     std::size_t ray[kMaxLanes] = {};
     bool enters_bound[kMaxLanes] = {};
     WindowLanes windows;

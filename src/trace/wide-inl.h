@@ -75,6 +75,10 @@ HWY_INLINE Wide mul(const Wide& a, const Wide& b) {
     return each_part([](auto x, auto y) HWY_ATTR { return hn::Mul(x, y); }, a, b);
 }
 
+HWY_INLINE Wide max(const Wide& a, const Wide& b) {
+    return each_part([](auto x, auto y) HWY_ATTR { return hn::Max(x, y); }, a, b);
+}
+
 HWY_INLINE Wide floor(const Wide& a) {
     return each_part([](auto x) HWY_ATTR { return hn::Floor(x); }, a);
 }

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "src/trace/base-inl.h"
+#include "src/trace/lane_bits-inl.h"
 #include "src/trace/ray.h"
 #include "src/trace/window.h"
 
@@ -25,29 +26,27 @@ struct WindowLanes {
     alignas(HWY_MAX_BYTES) float gradient[3][kMaxLanes] = {};
     alignas(HWY_MAX_BYTES) float hessian[6][kMaxLanes] = {};
     alignas(HWY_MAX_BYTES) float error[kMaxLanes] = {};
-    double begins[kMaxLanes] = {};       // where a lane without a window may look for the next one
-    const Window* next[kMaxLanes] = {};  // the first that the ray may enter yet
+    alignas(HWY_MAX_BYTES) double change[kMaxLanes] = {};  // where to look for the next one
+    const Window* next[kMaxLanes] = {};                    // the first that the ray may enter yet
 
-    WindowLanes() { std::fill_n(exit, kMaxLanes, std::numeric_limits<double>::infinity()); }
+    static constexpr double kNever = std::numeric_limits<double>::infinity();
+
+    WindowLanes() { std::fill_n(exit, kMaxLanes, kNever); }
 
     bool holds(std::size_t lane) const { return error[lane] > 0.0f; }
 
     void begin(std::size_t lane, const Window* first) {
-        begins[lane] = 0.0;
+        change[lane] = first == nullptr ? kNever : 0.0;
         next[lane] = first;
     }
 
     void leave(std::size_t lane) {
         if (!holds(lane)) return;
-        exit[lane] = std::numeric_limits<double>::infinity();
+        exit[lane] = kNever;
+        change[lane] = next[lane] == nullptr ? kNever : 0.0;
         value[lane] = error[lane] = 0.0f;
         for (auto& axis : gradient) axis[lane] = 0.0f;
         for (auto& entry : hessian) entry[lane] = 0.0f;
-    }
-
-    // Whether it is time to change the window of a ray at s.
-    bool changes(std::size_t lane, double s) const {
-        return holds(lane) ? s >= exit[lane] : next[lane] != nullptr && s >= begins[lane];
     }
 
     void enter(std::size_t lane, const Window& window) {
@@ -57,7 +56,7 @@ struct WindowLanes {
             gradient[a][lane] = window.gradient[a];
         }
         for (std::size_t i = 0; i < window.hessian.size(); ++i) hessian[i][lane] = window.hessian[i];
-        exit[lane] = window.to;
+        exit[lane] = change[lane] = window.to;
         value[lane] = window.value;
         error[lane] = window.error;
         next[lane] = window.after();
@@ -70,9 +69,23 @@ HWY_INLINE void change_window(WindowLanes& lanes, std::size_t lane, double s, do
     const Window* window = lanes.next[lane];
     while (window != nullptr && s + over >= window->to) window = window->after();
     lanes.next[lane] = window;
-    if (window == nullptr) return;
-    if (s >= window->from) return lanes.enter(lane, *window);
-    lanes.begins[lane] = window->from;
+    if (window != nullptr && s >= window->from) return lanes.enter(lane, *window);
+    lanes.change[lane] = window == nullptr ? WindowLanes::kNever : window->from;
+}
+
+// Of the rays among `lanes` that are at `ahead`, from a safe landing `over` before, those that leave their windows or
+// reach the next.
+HWY_INLINE void change_windows(WindowLanes& windows, hn::Mask<FloatTag> lanes, const Wide& ahead, const Wide& landing,
+                               FloatVec over) {
+    const LaneSet changes(hn::And(lanes, narrow(greater_equal(ahead, load_wide(windows.change)))));
+    if (changes.begin() == changes.end()) return;
+    alignas(HWY_MAX_BYTES) double landings[kMaxLanes];
+    alignas(HWY_MAX_BYTES) float overs[kMaxLanes];
+    store_wide(landing, landings);
+    hn::Store(over, FloatTag(), overs);
+    for (const std::size_t lane : changes) {
+        change_window(windows, lane, landings[lane], static_cast<double>(overs[lane]));
+    }
 }
 
 // What the windows say of the noise at x in its domain.
