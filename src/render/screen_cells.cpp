@@ -18,12 +18,18 @@ constexpr double kBias = 1 << (kAxisBits - 1);
 // Covers the rounding of a time's interval.
 constexpr double kTimeSlack = 1e-9;
 
-std::uint64_t spread_bits(std::uint64_t x) {
-    x = (x | x << 16) & 0x0000'ffff'0000'ffff;
-    x = (x | x << 8) & 0x00ff'00ff'00ff'00ff;
-    x = (x | x << 4) & 0x0f0f'0f0f'0f0f'0f0f;
-    x = (x | x << 2) & 0x3333'3333'3333'3333;
-    return (x | x << 1) & 0x5555'5555'5555'5555;
+// Bits of x at even places, bits of y at odd ones, of 16 each.
+std::uint64_t interleave_16(std::uint64_t x, std::uint64_t y) {
+    std::uint64_t both = x | y << 32;
+    both = (both | both << 8) & 0x00ff'00ff'00ff'00ff;
+    both = (both | both << 4) & 0x0f0f'0f0f'0f0f'0f0f;
+    both = (both | both << 2) & 0x3333'3333'3333'3333;
+    both = (both | both << 1) & 0x5555'5555'5555'5555;
+    return (both | both >> 31) & 0xffff'ffff;
+}
+
+std::uint64_t interleave(std::uint32_t x, std::uint32_t y) {
+    return interleave_16(x & 0xffff, y & 0xffff) | interleave_16(x >> 16, y >> 16) << 32;
 }
 
 std::uint64_t gather_bits(std::uint64_t x) {
@@ -36,8 +42,11 @@ std::uint64_t gather_bits(std::uint64_t x) {
 }
 
 // Leaves are wide enough for every frame to lie within kBias of them.
-std::uint64_t column_of(double x) {
-    return static_cast<std::uint64_t>(std::clamp(std::floor(x) + kBias, 0.0, 2.0 * kBias - 1.0));
+std::uint32_t column_of(double x) {
+    const double inside = std::clamp(x, -kBias, kBias - 1.0);
+    const auto toward_zero = static_cast<std::int32_t>(inside);
+    const std::int32_t below = toward_zero > inside ? 1 : 0;
+    return static_cast<std::uint32_t>(toward_zero - below + static_cast<std::int32_t>(kBias));
 }
 
 constexpr double power_of_two(int exponent) { return static_cast<double>(std::uint64_t{1} << exponent); }
@@ -66,8 +75,7 @@ int ScreenHierarchy::shift(int level) const { return 2 * kLevelBits * level + ti
 // From the top: the coarsest cell's column and row interleaved, then for each finer level two bits of each and the
 // level's bits of the time.
 std::uint64_t ScreenHierarchy::code(double u, double v, double t) const {
-    const std::uint64_t square = spread_bits(column_of(u * cells_a_pixel_)) | spread_bits(column_of(v * cells_a_pixel_))
-                                                                                  << 1;
+    const std::uint64_t square = interleave(column_of(u * cells_a_pixel_), column_of(v * cells_a_pixel_));
     if (time_bits_ == 0) return square;
     const double most = (1 << time_bits_) - 1;
     const auto time = static_cast<std::uint64_t>(std::clamp(std::floor((t - shutter_.first) / interval_), 0.0, most));
@@ -105,38 +113,49 @@ ScreenCell ScreenHierarchy::cell(std::uint64_t shifted, int level) const {
     return cell;
 }
 
-void SortedSamples::sort_by_digit(int shift, std::uint64_t least) {
+void ScreenHierarchy::codes(std::span<const double> u, std::span<const double> v, std::span<const double> t,
+                            std::span<std::uint64_t> out) const {
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = code(u[i], v[i], t[i]);
+}
+
+// By digits, the least first; each pass keeps the order of equal ones.
+template <class Code>
+void SortedSamples::Keys<Code>::sort(int bits) {
     constexpr int kDigit = 11;
-    std::array<std::uint32_t, (1u << kDigit) + 1> start{};
-    const auto digit = [&](std::uint64_t code) { return low_bits((code - least) >> shift, kDigit); };
-    for (const std::uint64_t code : codes) ++start[digit(code) + 1];
-    for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-    for (std::size_t i = 0; i < codes.size(); ++i) {
-        const std::uint32_t to = start[digit(codes[i])]++;
-        scratch_codes_[to] = codes[i];
-        scratch_order_[to] = order[i];
+    scratch.resize(keys.size());
+    for (int shift = 0; shift < bits; shift += kDigit) {
+        std::array<std::uint32_t, (1u << kDigit) + 1> start{};
+        const auto digit = [&](const Key& key) { return low_bits(key.code >> shift, kDigit); };
+        for (const Key& key : keys) ++start[digit(key) + 1];
+        for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+        for (const Key& key : keys) scratch[start[digit(key)]++] = key;
+        keys.swap(scratch);
     }
-    codes.swap(scratch_codes_);
-    order.swap(scratch_order_);
+}
+
+template <class Code>
+void SortedSamples::sort_by(Keys<Code>& sorted, std::uint64_t least, int bits) {
+    sorted.keys.resize(codes.size());
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+        sorted.keys[i] = {static_cast<Code>(codes[i] - least), static_cast<std::uint32_t>(i)};
+    }
+    sorted.sort(bits);
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+        codes[i] = least + sorted.keys[i].code;
+        order[i] = sorted.keys[i].sample;
+    }
 }
 
 void SortedSamples::sort(const ScreenHierarchy& hierarchy, std::span<const double> u, std::span<const double> v,
                          std::span<const double> t) {
     codes.resize(u.size());
     order.resize(u.size());
-    scratch_codes_.resize(u.size());
-    scratch_order_.resize(u.size());
-    std::uint64_t least = ~std::uint64_t{0}, most = 0;
-    for (std::size_t i = 0; i < u.size(); ++i) {
-        const std::uint64_t code = hierarchy.code(u[i], v[i], t[i]);
-        codes[i] = code;
-        order[i] = static_cast<std::uint32_t>(i);
-        least = std::min(least, code);
-        most = std::max(most, code);
-    }
     if (codes.empty()) return;
+    hierarchy.codes(u, v, t, codes);
+    const auto [least, most] = std::ranges::minmax(codes);
     const int bits = static_cast<int>(std::bit_width(most - least));
-    for (int shift = 0; shift < bits; shift += 11) sort_by_digit(shift, least);
+    if (bits <= 32) return sort_by(near_, least, bits);
+    sort_by(scattered_, least, bits);
 }
 
 }  // namespace strata::render

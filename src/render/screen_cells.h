@@ -33,6 +33,8 @@ class ScreenHierarchy {
     double side(int level) const;
 
     std::uint64_t code(double u, double v, double t) const;
+    void codes(std::span<const double> u, std::span<const double> v, std::span<const double> t,
+               std::span<std::uint64_t> out) const;
 
     // Codes of samples in the same cell of a level are equal after this shift, and only theirs.
     int shift(int level) const;
@@ -60,10 +62,23 @@ struct SortedSamples {
               std::span<const double> t);
 
   private:
-    void sort_by_digit(int shift, std::uint64_t least);
+    // Codes counted from the least, and whose they are.
+    template <class Code>
+    struct Keys {
+        struct Key {
+            Code code;
+            std::uint32_t sample;
+        };
+        std::vector<Key> keys, scratch;
 
-    std::vector<std::uint64_t> scratch_codes_;
-    std::vector<std::uint32_t> scratch_order_;
+        void sort(int bits);
+    };
+
+    template <class Code>
+    void sort_by(Keys<Code>& sorted, std::uint64_t least, int bits);
+
+    Keys<std::uint32_t> near_;  // for samples close together
+    Keys<std::uint64_t> scattered_;
 };
 
 }  // namespace strata::render
