@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <vector>
 
-#include "shaders_cpu/sky.h"
-#include "shaders_cpu/terrain_material.h"
 #include "src/render/phase_meter.h"
 #include "src/render/surface_image_chunk.h"
 #include "src/scene/needs.h"
 #include "src/trace/reference_tracer.h"
-#include "src/trace/shadow_ray.h"
 
 namespace strata::render {
 
@@ -169,141 +165,6 @@ void SurfaceImage::evaluate_cells(const SampleBatch& samples, std::span<const Be
         for (std::size_t i = 0; i < chunk.costs.size(); ++i) costs[order[begin + i]] = chunk.costs[i];
         meter.book(Phase::shading);
     }
-}
-
-void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec3> radiance, Chunk& chunk,
-                                  Counters& counters) const {
-    const std::size_t count = samples.u.size();
-    PhaseMeter meter(counters);
-
-    // Rays of the camera at their own time, turned into the surface's coordinates at that time. The sky does not spin
-    // with it.
-    chunk.rays.resize(count);
-    chunk.view.resize(count);
-    chunk.sun.resize(count);
-    glm::dmat3 orientation = placement_.orientation(0.0);
-    glm::dvec3 sun = trace::Placement::direction_to_local(orientation, sun_direction_);
-    std::optional<trace::Camera> moved;
-    trace::Ray first;  // of its time
-    for (std::size_t i = 0; i < count; ++i) {
-        const double t = samples.t[i];
-        const bool is_new_time = i == 0 || t != samples.t[i - 1];  // of an instant there is one
-        if (placement_.moves() && is_new_time) {
-            orientation = placement_.orientation(t);
-            sun = trace::Placement::direction_to_local(orientation, sun_direction_);
-        }
-        if (path_.moves() && is_new_time) moved.emplace(path_.at(t), scene_.film);
-        const trace::Camera& camera = moved ? *moved : camera_;
-        if (is_new_time) first = to_local(orientation, camera_ray(camera, samples.u[i], samples.v[i]), t);
-        const trace::CameraRay seen = camera.ray(samples.u[i], samples.v[i]);
-        chunk.rays[i] = trace::Placement::from_same_point(orientation, first, seen.direction,
-                                                          scene_.sampling.tolerance * seen.pixel_angle);
-        if (!chunk.start.empty()) {
-            chunk.rays[i].start = chunk.start[i];
-            chunk.rays[i].hint = chunk.hint[i];
-            chunk.rays[i].window = chunk.window[i];
-        }
-        chunk.view[i] = trace::Placement::direction_to_local(placement_.resting_orientation(), seen.direction);
-        chunk.sun[i] = sun;
-    }
-    chunk.hits.resize(count);
-    meter.book(Phase::shading);
-    trace::TraceCounters traced;
-    trace(chunk.rays, chunk.hits, traced);
-    meter.book(Phase::rays, traced);
-
-    // Positions and normals of what was hit; the rest is sky.
-    chunk.lit.clear();
-    chunk.surface_hits.clear();
-    chunk.x.clear();
-    chunk.noise_shift.clear();
-    for (std::size_t i = 0; i < count; ++i) {
-        const trace::Ray& ray = chunk.rays[i];
-        const trace::Hit& hit = chunk.hits[i];
-        chunk.add_cost(i, hit);
-        if (hit.state == trace::HitState::miss) {
-            radiance[i] = shaders::sky_radiance(scene_.sky, chunk.view[i]);
-        } else if (hit.state == trace::HitState::unresolved) {
-            radiance[i] = kUnresolvedRadiance;
-            ++counters.unresolved_rays;
-        } else {
-            chunk.x.push_back(ray.origin + hit.s * ray.direction);
-            if (field_.drifts()) chunk.noise_shift.push_back(ray.noise_shift);
-            chunk.surface_hits.push_back(hit);
-            chunk.lit.push_back({.sample = i, .view = chunk.view[i], .sun = chunk.sun[i], .distance = hit.s});
-        }
-    }
-    chunk.normal.resize(chunk.x.size());
-    meter.book(Phase::shading);
-    traced = {};
-    normals(chunk.surface_hits, chunk.x, chunk.noise_shift, chunk.normal, traced);
-    meter.book(Phase::normals, traced);
-    const bool is_planet = scene_.surface.kind == scene::SurfaceKind::planet;
-    for (std::size_t i = 0; i < chunk.lit.size(); ++i) {
-        Lit& lit = chunk.lit[i];
-        lit.normal = glm::dvec3(chunk.normal[i]);
-        if (!chunk.costs.empty() && !chunk.surface_hits[i].on_bound) {
-            chunk.costs[lit.sample].noise_evaluations +=
-                static_cast<std::uint32_t>(field_.octaves().size()) - chunk.surface_hits[i].octaves;
-        }
-        lit.height = is_planet ? field_.base(chunk.x[i]) : chunk.x[i].y;
-        if (is_planet) lit.up = field_.base_gradient(chunk.x[i]);
-    }
-
-    if (scene::needs_shadow_rays(scene_.sun)) {
-        meter.book(Phase::shading);
-        shadow(chunk, counters, meter);
-    }
-    for (const Lit& lit : chunk.lit) radiance[lit.sample] = shade_hit(lit);
-    counters.hits += chunk.lit.size();
-    meter.book(Phase::shading);
-}
-
-// How far apart the shadow rays of neighbouring samples are, from the area of the surface that a sample stands for.
-double SurfaceImage::shadow_spacing(const trace::Ray& ray, const Lit& lit) const {
-    constexpr double kLeastCosine = 0.05;
-    const double pixel = ray.delta_slope / scene_.sampling.tolerance * lit.distance;
-    const double to_eye = std::max(std::abs(glm::dot(lit.normal, ray.direction)), kLeastCosine);
-    const double to_sun = std::max(glm::dot(lit.normal, lit.sun), kLeastCosine);
-    return pixel * std::sqrt(to_sun / to_eye) / samples_a_side_;
-}
-
-// A point of the convex bound that faces the sun sees it.
-void SurfaceImage::shadow(Chunk& chunk, Counters& counters, PhaseMeter& meter) const {
-    chunk.shadow_rays.clear();
-    chunk.shadow_owner.clear();
-    chunk.shadow_spacing.clear();
-    for (std::size_t i = 0; i < chunk.lit.size(); ++i) {
-        const Lit& lit = chunk.lit[i];
-        const trace::Hit& hit = chunk.surface_hits[i];
-        if (glm::dot(lit.normal, lit.sun) <= 0.0 || hit.on_bound) continue;
-        chunk.shadow_rays.push_back(trace::shadow_ray(chunk.rays[lit.sample], hit, lit.normal, lit.sun));
-        chunk.shadow_owner.push_back(i);
-        if (sun_beams_) chunk.shadow_spacing.push_back(shadow_spacing(chunk.rays[lit.sample], lit));
-    }
-    trace::TraceCounters traced;
-    if (sun_beams_) sun_beams_->shorten(chunk.shadow_rays, chunk.shadow_spacing, chunk.sunlit, traced);
-    meter.book(Phase::sun_beams, traced);
-    chunk.shadow_hits.resize(chunk.shadow_rays.size());
-    traced = {};
-    trace(chunk.shadow_rays, chunk.shadow_hits, traced);
-    for (std::size_t i = 0; i < chunk.shadow_hits.size(); ++i) {
-        const trace::HitState state = chunk.shadow_hits[i].state;
-        chunk.add_cost(chunk.lit[chunk.shadow_owner[i]].sample, chunk.shadow_hits[i]);
-        if (state != trace::HitState::miss) chunk.lit[chunk.shadow_owner[i]].visibility = 0.0;
-        if (state == trace::HitState::unresolved) ++counters.unresolved_rays;
-    }
-    counters.shadow_rays += chunk.shadow_rays.size();
-    meter.book(Phase::shadows, traced);
-}
-
-glm::vec3 SurfaceImage::shade_hit(const Lit& lit) const {
-    const shaders::SurfacePoint point{.height = lit.height,
-                                      .up_dot_normal = glm::dot(lit.up, lit.normal),
-                                      .n_dot_sun = glm::dot(lit.normal, lit.sun),
-                                      .sun_visibility = lit.visibility};
-    const glm::vec3 surface = shaders::shade(scene_.material, scene_.sun, scene_.sky, point);
-    return shaders::apply_haze(scene_.sky, surface, lit.distance, lit.view);
 }
 
 }  // namespace strata::render

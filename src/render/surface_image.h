@@ -73,9 +73,11 @@ class SurfaceImage final : public ImageFunction {
     void gradients(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
                    std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient,
                    trace::TraceCounters& counters) const;
-    double shadow_spacing(const trace::Ray& ray, const Lit& lit) const;
+    void make_rays(const SampleBatch& samples, Chunk& chunk) const;
+    void gather_hits(std::span<glm::vec3> radiance, Chunk& chunk, Counters& counters) const;
+    double shadow_spacing(const Chunk& chunk, std::size_t i) const;
     void shadow(Chunk& chunk, Counters& counters, PhaseMeter& meter) const;
-    glm::vec3 shade_hit(const Lit& lit) const;
+    glm::vec3 shade_hit(const Chunk& chunk, std::size_t i) const;
     trace::Ray camera_ray(const trace::Camera& camera, double u, double v) const;
 
     scene::Scene scene_;

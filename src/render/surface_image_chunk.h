@@ -9,16 +9,10 @@
 
 namespace strata::render {
 
-// A hit on its way to radiance, in the surface's coordinates.
+// A hit on its way to radiance.
 struct SurfaceImage::Lit {
-    std::size_t sample = 0;
-    glm::dvec3 normal{0.0};
-    glm::dvec3 up{0.0, 1.0, 0.0};
-    glm::dvec3 view{0.0};  // the ray's direction, as the sky lies
-    glm::dvec3 sun{0.0};
-    double height = 0.0;
-    double distance = 0.0;
-    double visibility = 1.0;
+    std::uint32_t sample = 0;
+    float visibility = 1.0f;  // of the sun
 };
 
 // What a chunk of samples needs on its way; one each thread, its memory reused from chunk to chunk.
@@ -32,9 +26,11 @@ struct SurfaceImage::Chunk {
     std::vector<glm::vec3> radiance;
     std::vector<trace::Ray> rays, shadow_rays;
     std::vector<trace::Hit> hits, surface_hits, shadow_hits;
-    std::vector<glm::dvec3> view, sun, x, noise_shift;
+    std::vector<glm::dvec3> view;  // the rays' directions, as the sky lies; empty where those are the rays' own
+    std::vector<glm::dvec3> sun;   // of each sample, or of all
+    std::vector<Lit> lit;          // of these, in the surface's coordinates:
+    std::vector<glm::dvec3> x, noise_shift;
     std::vector<glm::vec3> normal;
-    std::vector<Lit> lit;
     std::vector<std::size_t> shadow_owner;
     std::vector<double> shadow_spacing;
     SunlitCells sunlit;
@@ -48,6 +44,10 @@ struct SurfaceImage::Chunk {
         window.resize(count);
     }
 
+    const glm::dvec3& view_of(std::size_t sample) const { return view.empty() ? rays[sample].direction : view[sample]; }
+    const glm::dvec3& sun_of(std::size_t i) const { return sun.size() == 1 ? sun.front() : sun[lit[i].sample]; }
+    const trace::Ray& ray_of(std::size_t i) const { return rays[lit[i].sample]; }
+
     std::vector<SampleCost> sample_costs;
     std::span<SampleCost> costs;  // empty: not asked for
 
@@ -55,6 +55,15 @@ struct SurfaceImage::Chunk {
         if (costs.empty()) return;
         costs[sample].steps += hit.steps;
         costs[sample].noise_evaluations += hit.noise_evaluations;
+    }
+
+    // Of the octaves that were missing from the hits' gradients.
+    void add_normals_costs(std::uint32_t octaves) {
+        if (costs.empty()) return;
+        for (std::size_t i = 0; i < lit.size(); ++i) {
+            if (surface_hits[i].on_bound) continue;
+            costs[lit[i].sample].noise_evaluations += octaves - surface_hits[i].octaves;
+        }
     }
 
     // What is filled hit by hit would be copied over and over while it grows: 5 to 8 % of a render.

@@ -14,12 +14,15 @@ namespace strata::trace::HWY_NAMESPACE {
 
 inline constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(float);
 
+// Points whose gradients lack octaves, a lane each.
 struct GradientBlock {
     alignas(HWY_MAX_BYTES) double x[3][kLanes] = {};  // of the noise
     alignas(HWY_MAX_BYTES) float gradient[3][kLanes] = {};
     alignas(HWY_MAX_BYTES) float first[kLanes] = {};  // the first octave to be subtracted
     double reach = 0.0;
     std::size_t least = 0;  // of `first`
+    std::size_t count = 0;
+    std::size_t point[kLanes] = {};
 };
 
 // Subtracts the octaves' gradients from block.gradient.
@@ -44,42 +47,55 @@ HWY_INLINE void subtract_octaves(const TracePlan& plan, GradientBlock& block) {
     hn::Store(gz, d, block.gradient[2]);
 }
 
-HWY_INLINE void finish_block(const Field& field, const TracePlan& plan, GradientBlock& block) {
+// Finishes the points gathered in `block` and starts a new one.
+HWY_INLINE void finish_block(const Field& field, const TracePlan& plan, GradientBlock& block,
+                             std::span<glm::vec3> gradient, TraceCounters& counters) {
+    if (block.count == 0) return;
     if (field.is_planar_noise()) {
         subtract_octaves<true>(plan, block);
     } else {
         subtract_octaves<false>(plan, block);
     }
+    counters.executed_lanes += hn::Lanes(FloatTag()) * (plan.octaves.size() - block.least);
+    for (std::size_t i = 0; i < block.count; ++i) {
+        gradient[block.point[i]] = {block.gradient[0][i], block.gradient[1][i], block.gradient[2][i]};
+    }
+    block.count = 0;
+    block.least = plan.octaves.size();
+}
+
+// The noise is evaluated at x; the gradient of the rest and of the first octaves is `known`.
+HWY_INLINE void take_point(GradientBlock& block, std::size_t point, const glm::dvec3& x, const glm::vec3& known,
+                           std::size_t first) {
+    const std::size_t lane = block.count++;
+    for (int a = 0; a < 3; ++a) {
+        block.x[a][lane] = x[a];
+        block.gradient[a][lane] = known[a];
+        block.reach = std::max(block.reach, std::abs(x[a]));
+    }
+    block.first[lane] = static_cast<float>(first);
+    block.least = std::min(block.least, first);
+    block.point[lane] = point;
 }
 
 // hits: empty, or what is known of each gradient already.
 void Gradients(const Field& field, const TracePlan& plan, std::span<const Hit> hits, std::span<const glm::dvec3> x,
                std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient, TraceCounters& counters) {
     const std::size_t lanes = hn::Lanes(FloatTag()), octaves = plan.octaves.size();
-    for (std::size_t begin = 0; begin < x.size(); begin += lanes) {
-        const std::size_t count = std::min(lanes, x.size() - begin);
-        GradientBlock block;
-        block.least = octaves;
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t first = hits.empty() ? 0 : hits[begin + i].octaves;
-            const glm::vec3 known =
-                first == 0 ? glm::vec3(field.base_gradient(x[begin + i])) : hits[begin + i].gradient;
-            const glm::dvec3 at = noise_shift.empty() ? x[begin + i] : x[begin + i] + noise_shift[begin + i];
-            for (int a = 0; a < 3; ++a) {
-                block.x[a][i] = at[a];
-                block.gradient[a][i] = known[a];
-                block.reach = std::max(block.reach, std::abs(at[a]));
-            }
-            block.first[i] = static_cast<float>(first);
-            block.least = std::min(block.least, first);
-            counters.noise_evaluations += octaves - first;
+    GradientBlock block;
+    block.least = octaves;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const std::size_t first = hits.empty() ? 0 : hits[i].octaves;
+        if (first == octaves) {
+            gradient[i] = hits[i].gradient;
+            continue;
         }
-        counters.executed_lanes += lanes * (octaves - block.least);
-        if (block.least < octaves) finish_block(field, plan, block);
-        for (std::size_t i = 0; i < count; ++i) {
-            gradient[begin + i] = {block.gradient[0][i], block.gradient[1][i], block.gradient[2][i]};
-        }
+        const glm::vec3 known = first == 0 ? glm::vec3(field.base_gradient(x[i])) : hits[i].gradient;
+        take_point(block, i, noise_shift.empty() ? x[i] : x[i] + noise_shift[i], known, first);
+        counters.noise_evaluations += octaves - first;
+        if (block.count == lanes) finish_block(field, plan, block, gradient, counters);
     }
+    finish_block(field, plan, block, gradient, counters);
 }
 
 }  // namespace strata::trace::HWY_NAMESPACE

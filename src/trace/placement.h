@@ -38,12 +38,10 @@ class Placement {
                  const glm::dvec3& noise_shift = glm::dvec3(0.0)) const;
 
     // What to_local gives for another ray from the same point at the same time: `local` but for the direction.
-    static Ray from_same_point(const glm::dmat3& orientation, const Ray& local, const glm::dvec3& world_direction,
-                               double world_delta_slope) {
-        Ray ray = local;
-        ray.direction = turned(orientation, world_direction);
-        ray.delta_slope = std::max(world_delta_slope, kLeastDelta);
-        return ray;
+    static void aim(Ray& local, const glm::dmat3& orientation, const glm::dvec3& world_direction,
+                    double world_delta_slope) {
+        local.direction = turned(orientation, world_direction);
+        local.delta_slope = std::max(world_delta_slope, kLeastDelta);
     }
 
   private:
