@@ -9,6 +9,7 @@
 
 #include "src/trace/base-inl.h"
 #include "src/trace/beam_bound-inl.h"
+#include "src/trace/lane_bits-inl.h"
 #include "src/trace/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,7 +22,7 @@ constexpr float kBeamCellsAhead = 0.3f;
 constexpr float kLeastGain = 0.5f;
 
 // A beam may end anywhere; one that grazes for so long leaves the rest to narrower ones.
-constexpr int kMostBeamSteps = 200;
+constexpr std::uint32_t kMostBeamSteps = 200;
 
 struct BeamPacket {
     alignas(HWY_MAX_BYTES) double origin[3][kMaxLanes] = {};
@@ -34,8 +35,8 @@ struct BeamPacket {
     alignas(HWY_MAX_BYTES) float speed[kMaxLanes] = {};
     alignas(HWY_MAX_BYTES) float hint[kMaxLanes] = {};
     alignas(HWY_MAX_BYTES) float active[kMaxLanes] = {};
-    double limit[kMaxLanes] = {};
-    int steps[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) double limit[kMaxLanes] = {};
+    alignas(HWY_MAX_BYTES) std::uint32_t steps[kMaxLanes] = {};
     std::size_t beam[kMaxLanes] = {};
     double reach = 0.0;
     std::size_t active_count = 0;
@@ -173,20 +174,24 @@ HWY_INLINE void step_beams(const Field& field, const TracePlan& plan, BeamPacket
     const FloatVec safe = hn::Max(first, solve_beam<kKind, kLoose>(plan, cache, at, span, noise_radius, &slope));
     hn::Store(hn::Min(hn::Max(safe, hn::Max(least_gain, hn::Set(d, 1e-30f))), hn::Set(d, 1e15f)), d, packet.hint);
 
-    alignas(HWY_MAX_BYTES) double clear[kMaxLanes];
-    alignas(HWY_MAX_BYTES) float gain[kMaxLanes], enough[kMaxLanes], slopes[kMaxLanes];
-    store_wide(add(s, to_wide(safe)), clear);
-    hn::Store(safe, d, gain);
-    hn::Store(least_gain, d, enough);
+    const WordTag dw;
+    const auto active = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
+    const WordVec steps =
+        hn::Add(hn::Load(dw, packet.steps), hn::IfThenElseZero(hn::RebindMask(dw, active), hn::Set(dw, 1u)));
+    hn::Store(steps, dw, packet.steps);
+    counters.steps += hn::CountTrue(d, active);
+    const Wide clear = add(s, to_wide(safe));
+    store_wide(select(widen(active), clear, s), packet.s);
+    const auto misses = hn::And(active, narrow(greater_equal(clear, load_wide(packet.limit))));
+    const auto gains = hn::And(hn::Gt(safe, hn::Zero(d)), hn::Ge(safe, least_gain));
+    const auto is_last = hn::RebindMask(d, hn::Eq(steps, hn::Set(dw, kMostBeamSteps)));
+    const auto ends_here = hn::And(active, hn::Or(misses, hn::Or(hn::Not(gains), is_last)));
+    if (hn::AllFalse(d, ends_here)) return;
+    alignas(HWY_MAX_BYTES) float slopes[kMaxLanes];
     hn::Store(slope, d, slopes);
-    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-        if (packet.active[lane] == 0.0f) continue;
-        ++counters.steps;
-        packet.s[lane] = clear[lane];
-        const bool misses = clear[lane] >= packet.limit[lane];
-        const bool goes_on = gain[lane] > 0.0f && gain[lane] >= enough[lane];
-        if (!misses && goes_on && ++packet.steps[lane] < kMostBeamSteps) continue;
-        ends[packet.beam[lane]] = {clear[lane], packet.hint[lane], slopes[lane], misses};
+    const LaneSet missing(misses);
+    for (const std::size_t lane : LaneSet(ends_here)) {
+        ends[packet.beam[lane]] = {packet.s[lane], packet.hint[lane], slopes[lane], missing.contains(lane)};
         packet.active[lane] = 0.0f;
         --packet.active_count;
     }
