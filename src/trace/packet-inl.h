@@ -51,7 +51,7 @@ struct Packet {
 // Over a height field's 2-D noise only the horizontal part of the ray moves.
 HWY_INLINE float domain_speed(bool is_planar, const glm::dvec3& direction) {
     if (!is_planar) return 1.0f;
-    return static_cast<float>(std::hypot(direction.x, direction.z) * kRoundUp);
+    return static_cast<float>(std::sqrt(direction.x * direction.x + direction.z * direction.z) * kRoundUp);
 }
 
 HWY_INLINE void take_ray(Packet& packet, std::size_t lane, const Ray& ray, std::size_t index, const Interval& inside,
