@@ -23,10 +23,6 @@
 
 namespace strata::shaders {
 
-// Reflectance at a height (surface units) and a slope given by the cosine of the normal to "up" (1: level, 0: a wall, <
-// 0: an overhang, all rock). Cubic blends: a mix of low, high and steep with weights in [0,1] that sum to 1.
-glm::vec3 albedo(const scene::Material& material, double height, double slope_cosine);
-
 // A point of a surface as its material sees it.
 struct SurfacePoint {
     double height = 0.0;          // surface units above the base plane or sphere
@@ -35,10 +31,27 @@ struct SurfacePoint {
     double sun_visibility = 1.0;  // 0: in shadow, 1: lit
 };
 
-// Linear radiance of the point, which is the same in every direction: albedo * (sun + sky). The sun gives
-// colour * intensity * max(0, n.l) * visibility / pi: intensity is the irradiance of a surface that faces it. The sky
-// gives ambient_light() (sky.h), a little more of it to what faces the sun's side and less to what turns away.
-glm::vec3 shade(const scene::Material& material, const scene::Sun& sun, const scene::Sky& sky,
-                const SurfacePoint& point);
+// A material under its light.
+class TerrainShader {
+  public:
+    TerrainShader(const scene::Material& material, const scene::Sun& sun, const scene::Sky& sky);
+
+    // Reflectance at a height (surface units) and a slope given by the cosine of the normal to "up" (1: level, 0: a
+    // wall, < 0: an overhang, all rock). Cubic blends: a mix of low, high and steep with weights in [0,1] that sum
+    // to 1.
+    glm::vec3 albedo(double height, double slope_cosine) const;
+
+    // Linear radiance of the point, which is the same in every direction: albedo * (sun + sky). The sun gives
+    // colour * intensity * max(0, n.l) * visibility / pi: intensity is the irradiance of a surface that faces it. The
+    // sky gives ambient_light() (sky.h), a little more of it to what faces the sun's side and less to what turns away.
+    glm::vec3 radiance(const SurfacePoint& point) const;
+
+  private:
+    scene::Material material_;
+    glm::vec3 low_, rise_, steep_;  // reflectances; rise_ leads from low to high
+    glm::dvec3 sun_;                // radiance of white that faces it
+    glm::vec3 open_sky_, ground_;   // ambient light where all is sky, or none
+    double sunward_sky_;
+};
 
 }  // namespace strata::shaders

@@ -23,6 +23,7 @@ SurfaceImage::SurfaceImage(const scene::Scene& scene, Tracer tracer, std::uint32
     : scene_(scene),
       tracer_(tracer),
       step_limit_(step_limit),
+      shader_(scene.material, scene.sun, scene.sky),
       field_(scene.surface),
       fast_(field_),
       placement_(scene.surface),

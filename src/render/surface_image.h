@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "shaders_cpu/terrain_material.h"
 #include "src/render/image_function.h"
 #include "src/render/screen_beams.h"
 #include "src/render/sun_beams.h"
@@ -83,6 +84,7 @@ class SurfaceImage final : public ImageFunction {
     scene::Scene scene_;
     Tracer tracer_;
     std::uint32_t step_limit_;
+    shaders::TerrainShader shader_;
     trace::Field field_;
     trace::FastTracer fast_;
     trace::Placement placement_;

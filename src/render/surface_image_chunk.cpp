@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "shaders_cpu/sky.h"
-#include "shaders_cpu/terrain_material.h"
 #include "src/render/phase_meter.h"
 #include "src/scene/needs.h"
 #include "src/trace/shadow_ray.h"
@@ -21,32 +19,34 @@ void SurfaceImage::make_rays(const SampleBatch& samples, Chunk& chunk) const {
     chunk.rays.resize(count);
     chunk.view.resize(spins ? count : 0);
     chunk.sun.resize(spins ? count : 1);
+    const glm::dmat3& resting = placement_.resting_orientation();
     glm::dmat3 orientation = placement_.orientation(0.0);
     glm::dvec3 sun = trace::Placement::direction_to_local(orientation, sun_direction_);
     if (!spins) chunk.sun.front() = sun;
-    std::optional<trace::Camera> moved;
-    trace::Ray first;  // of its time
+    trace::Camera eye = camera_.turned(orientation);  // in the surface's axes
+    trace::Ray first;                                 // of its time
     for (std::size_t i = 0; i < count; ++i) {
         const double t = samples.t[i];
-        const bool is_new_time = i == 0 || t != samples.t[i - 1];  // of an instant there is one
-        if (spins && is_new_time) {
-            orientation = placement_.orientation(t);
-            sun = trace::Placement::direction_to_local(orientation, sun_direction_);
+        if (i == 0 || t != samples.t[i - 1]) {  // of an instant there is one
+            const trace::Camera camera = path_.moves() ? trace::Camera(path_.at(t), scene_.film) : camera_;
+            if (spins) {
+                orientation = placement_.orientation(t);
+                sun = trace::Placement::direction_to_local(orientation, sun_direction_);
+            }
+            eye = camera.turned(orientation);
+            first = to_local(orientation, camera_ray(camera, samples.u[i], samples.v[i]), t);
         }
-        if (path_.moves() && is_new_time) moved.emplace(path_.at(t), scene_.film);
-        const trace::Camera& camera = moved ? *moved : camera_;
-        if (is_new_time) first = to_local(orientation, camera_ray(camera, samples.u[i], samples.v[i]), t);
-        const trace::CameraRay seen = camera.ray(samples.u[i], samples.v[i]);
+        const trace::CameraRay seen = eye.ray(samples.u[i], samples.v[i]);
         trace::Ray& ray = chunk.rays[i];
         ray = first;
-        trace::Placement::aim(ray, orientation, seen.direction, scene_.sampling.tolerance * seen.pixel_angle);
+        trace::Placement::aim(ray, seen.direction, scene_.sampling.tolerance * seen.pixel_angle);
         if (!chunk.start.empty()) {
             ray.start = chunk.start[i];
             ray.hint = chunk.hint[i];
             ray.window = chunk.window[i];
         }
         if (!spins) continue;
-        chunk.view[i] = trace::Placement::direction_to_local(placement_.resting_orientation(), seen.direction);
+        chunk.view[i] = trace::Placement::direction_to_local(resting, orientation * seen.direction);
         chunk.sun[i] = sun;
     }
 }
@@ -153,7 +153,7 @@ glm::vec3 SurfaceImage::shade_hit(const Chunk& chunk, std::size_t i) const {
                                       .up_dot_normal = is_planet ? glm::dot(field_.base_gradient(x), normal) : normal.y,
                                       .n_dot_sun = glm::dot(normal, chunk.sun_of(i)),
                                       .sun_visibility = static_cast<double>(chunk.lit[i].visibility)};
-    const glm::vec3 surface = shaders::shade(scene_.material, scene_.sun, scene_.sky, point);
+    const glm::vec3 surface = shader_.radiance(point);
     return shaders::apply_haze(scene_.sky, surface, chunk.surface_hits[i].s, chunk.view_of(chunk.lit[i].sample));
 }
 

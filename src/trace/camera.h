@@ -25,6 +25,16 @@ class Camera {
 
     const glm::dvec3& position() const { return position_; }
 
+    // Its rays in other axes: the columns of `axes`, of unit length and across each other.
+    Camera turned(const glm::dmat3& axes) const {
+        Camera camera = *this;
+        camera.position_ = position_ * axes;
+        camera.forward_ = forward_ * axes;
+        camera.right_ = right_ * axes;
+        camera.up_ = up_ * axes;
+        return camera;
+    }
+
     CameraRay ray(double u, double v) const {
         const glm::dvec3 along = toward(u, v);
         const double squared = glm::dot(along, along);

@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace strata::trace::HWY_NAMESPACE {
 
 // Exchange finished lanes once this fraction of the packet is idle. Speed only.
-constexpr std::size_t kIdleFraction = 4;
+constexpr std::size_t kIdleFraction = 8;
 
 // Oversteps, in safe steps: what each success adds, the most, and where to begin anew after a failure; none shorter
 // than some tolerances. Speed only.

@@ -42,7 +42,7 @@ glm::dmat3 Placement::orientation(double t) const {
 Ray Placement::to_local(const glm::dmat3& orientation, const Ray& world, const glm::dvec3& noise_shift) const {
     Ray local;
     local.origin = point_to_local(orientation, world.origin);
-    local.direction = turned(orientation, world.direction);
+    local.direction = glm::normalize(direction_to_local(orientation, world.direction));
     local.noise_shift = noise_shift;
     local.limit = world.limit / scale_;
     const double size = glm::length(local.origin) + glm::length(noise_shift);

@@ -37,20 +37,14 @@ class Placement {
     Ray to_local(const glm::dmat3& orientation, const Ray& world,
                  const glm::dvec3& noise_shift = glm::dvec3(0.0)) const;
 
-    // What to_local gives for another ray from the same point at the same time: `local` but for the direction.
-    static void aim(Ray& local, const glm::dmat3& orientation, const glm::dvec3& world_direction,
-                    double world_delta_slope) {
-        local.direction = turned(orientation, world_direction);
+    // What to_local gives for another ray from the same point at the same time: `local` but for the direction, which is
+    // given in the surface's coordinates.
+    static void aim(Ray& local, const glm::dvec3& direction, double world_delta_slope) {
+        local.direction = direction;
         local.delta_slope = std::max(world_delta_slope, kLeastDelta);
     }
 
   private:
-    // Of a direction of unit length but for rounding, its turn: a step of Newton's makes up for the square root.
-    static glm::dvec3 turned(const glm::dmat3& orientation, const glm::dvec3& world_direction) {
-        const glm::dvec3 d = direction_to_local(orientation, world_direction);
-        return d * (1.5 - 0.5 * glm::dot(d, d));
-    }
-
     // Positions along a ray are rounded by 2^-52 of their size or less: a tolerance finer than a few of that is none.
     static constexpr double kLeastDelta = 0x1p-50;
 

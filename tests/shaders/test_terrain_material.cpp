@@ -21,6 +21,15 @@ bool close(const glm::vec3& a, const glm::vec3& b, double tolerance = 1e-6) {
     return true;
 }
 
+glm::vec3 albedo(const scene::Material& material, double height, double slope_cosine) {
+    return TerrainShader(material, {}, {}).albedo(height, slope_cosine);
+}
+
+glm::vec3 shade(const scene::Material& material, const scene::Sun& sun, const scene::Sky& sky,
+                const SurfacePoint& point) {
+    return TerrainShader(material, sun, sky).radiance(point);
+}
+
 double luminance(const glm::vec3& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 
 }  // namespace

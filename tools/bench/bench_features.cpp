@@ -84,6 +84,7 @@ class BareImage final : public render::ImageFunction {
   public:
     explicit BareImage(const scene::Scene& scene)
         : scene_(scene),
+          shader_(scene.material, scene.sun, scene.sky),
           field_(scene.surface),
           fast_(field_),
           placement_(scene.surface),
@@ -134,14 +135,14 @@ class BareImage final : public render::ImageFunction {
         for (std::size_t i = 0; i < x.size(); ++i) {
             const glm::dvec3 normal(glm::normalize(gradient[i]));
             radiance[owner[i]] =
-                shaders::shade(scene_.material, scene_.sun, scene_.sky,
-                               {.height = x[i].y, .up_dot_normal = normal.y, .n_dot_sun = glm::dot(normal, sun)});
+                shader_.radiance({.height = x[i].y, .up_dot_normal = normal.y, .n_dot_sun = glm::dot(normal, sun)});
         }
         counters.hits += x.size();
         counters.noise_evaluations += traced.noise_evaluations;
     }
 
     scene::Scene scene_;
+    shaders::TerrainShader shader_;
     trace::Field field_;
     trace::FastTracer fast_;
     trace::Placement placement_;
