@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "src/render/interleave_simd.h"
+
 namespace strata::render {
 
 namespace {
@@ -115,6 +117,8 @@ ScreenCell ScreenHierarchy::cell(std::uint64_t shifted, int level) const {
 
 void ScreenHierarchy::codes(std::span<const double> u, std::span<const double> v, std::span<const double> t,
                             std::span<std::uint64_t> out) const {
+    if (time_bits_ == 0)
+        return interleave_columns(u.first(out.size()), v.first(out.size()), cells_a_pixel_, kBias, out);
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = code(u[i], v[i], t[i]);
 }
 
