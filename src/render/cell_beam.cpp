@@ -27,17 +27,23 @@ CellBeams::CellBeams(const scene::Scene& scene, const scene::CameraPath& path, c
       path_(path),
       film_(scene.film),
       camera_moves_(path.moves_during(scene::open_shutter(scene))),
-      camera_(path.at(middle_of(scene::open_shutter(scene))), scene.film),
       placement_(placement),
+      eye_(eye_at(middle_of(scene::open_shutter(scene)))),
       field_(field),
       limit_(scene.camera.far / placement.scale()),
       bounding_ball_(bounding_ball(field)),
-      eye_distance_(glm::length(placement.point_to_local(placement.orientation(0.0), camera_.position()))),
+      eye_distance_(glm::length(placement.point_to_local(placement.orientation(0.0), eye_.world.position()))),
       spin_rad_per_s_(placement.moves() ? std::abs(glm::radians(surface_.spin_deg_per_s)) : 0.0) {
-    const double eye_height = placement.point_to_local(placement.orientation(0.0), camera_.position()).y;
+    const double eye_height = placement.point_to_local(placement.orientation(0.0), eye_.world.position()).y;
     typical_distance_ = std::isfinite(bounding_ball_) ? std::max(eye_distance_ - bounding_ball_, 0.01 * eye_distance_)
                                                       : 2.0 * std::max(std::abs(eye_height), 0.1 * field.amplitude());
     typical_distance_ = std::max(typical_distance_, 1e-300);
+}
+
+CellBeams::Eye CellBeams::eye_at(double time) const {
+    const glm::dmat3 orientation = placement_.orientation(time);
+    const trace::Camera world(path_.at(time), film_);
+    return {world, world.turned(orientation), placement_.point_to_local(orientation, world.position())};
 }
 
 // The surface turns about its own origin: a solid point of a bounded one moves by at most its angle times the ball's
@@ -84,31 +90,33 @@ double CellBeams::enters(const trace::Beam& beam, double angle, double eye_shift
 
 std::optional<CellBeam> CellBeams::around(const ScreenCell& cell) const {
     const double middle = middle_of(cell.time);
-    const trace::Camera camera = camera_moves_ ? trace::Camera(path_.at(middle), film_) : camera_;
-    const trace::CameraCone cone = camera.cone(cell.x, cell.y, cell.side);
+    std::optional<Eye> moved;
+    if (camera_moves_ || placement_.moves()) moved = eye_at(middle);
+    const Eye& eye = moved ? *moved : eye_;
+    const trace::CameraCone cone = eye.local.cone(cell.x, cell.y, cell.side);
     if (!(cone.tangent <= kWidest)) return std::nullopt;
-    const std::optional<Sweep> bounds = sweep(cell, camera);
+    const std::optional<Sweep> bounds = sweep(cell, eye.world);
     if (!bounds) return std::nullopt;
     const Sweep& swept = *bounds;
-    const double half_angle = std::atan(cone.tangent) + swept.angle;
+    const bool is_bounded = std::isfinite(bounding_ball_);
+    const double half_angle = is_bounded || swept.angle > 0.0 ? std::atan(cone.tangent) + swept.angle : 0.0;
     const double tangent = swept.angle > 0.0 ? std::tan(half_angle) * kPad : cone.tangent;
     if (!(tangent <= kWidest && tangent >= 0.0)) return std::nullopt;
 
-    const glm::dmat3 orientation = placement_.orientation(middle);
     CellBeam result;
-    result.shift = 2.0 * swept.shift;
-    result.cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
+    result.margins.shift = 2.0 * swept.shift;
+    result.margins.cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
     trace::Beam& beam = result.beam;
-    beam.origin = placement_.point_to_local(orientation, camera.position());
-    beam.direction = glm::normalize(trace::Placement::direction_to_local(orientation, cone.direction));
+    beam.origin = eye.origin;
+    beam.direction = cone.direction;
     beam.noise_shift = field_.noise_shift(middle);
     beam.radius0 = swept.shift;
     beam.spread = tangent;
     beam.noise_radius = swept.noise;
-    beam.limit = limit_ + result.shift;
-    if (std::isfinite(bounding_ball_)) {
+    beam.limit = limit_ + result.margins.shift;
+    if (is_bounded) {
         const double entry = enters(beam, half_angle, swept.eye_shift);
-        beam.start = entry * result.cosine;
+        beam.start = entry * result.margins.cosine;
         beam.limit = std::min(beam.limit, glm::length(beam.origin) + bounding_ball_ + swept.shift);
     }
     // At other times rays begin up to `shift` behind the eye of the interval's middle.
@@ -118,8 +126,8 @@ std::optional<CellBeam> CellBeams::around(const ScreenCell& cell) const {
 
 double CellBeams::blur(const scene::TimeSpan& time) const {
     const double x = 0.5 * film_.width, y = 0.5 * film_.height;
-    const std::optional<Sweep> swept = sweep({x, y, 1.0, time}, camera_);
-    const double pixel = camera_.ray(x, y).pixel_angle;
+    const std::optional<Sweep> swept = sweep({x, y, 1.0, time}, eye_.world);
+    const double pixel = eye_.world.ray(x, y).pixel_angle;
     if (!swept) return 1.0 / pixel;
     return 2.0 * ((swept->shift + swept->noise) / typical_distance_ + swept->angle) / pixel;
 }

@@ -16,9 +16,12 @@ namespace strata::render {
 // Where a ray can be solid, its point at distance s of its origin has an axis coordinate of at most s + shift, and at
 // least s * cosine.
 struct CellBeam {
+    struct Margins {
+        double shift = 0.0;
+        double cosine = 1.0;
+    };
     trace::Beam beam;
-    double shift = 0.0;
-    double cosine = 1.0;
+    Margins margins;
 };
 
 class CellBeams {
@@ -40,6 +43,13 @@ class CellBeams {
         double noise = 0.0;      // of the noise
         double eye_shift = 0.0;  // what of `shift` is the eye's way towards or from the surface
     };
+    // The camera at some time: in the world, and in the surface's axes, where it is at `origin`.
+    struct Eye {
+        trace::Camera world, local;
+        glm::dvec3 origin;
+    };
+    Eye eye_at(double time) const;
+
     std::optional<Sweep> sweep(const ScreenCell& cell, const trace::Camera& camera) const;
     double enters(const trace::Beam& beam, double angle, double eye_shift) const;
 
@@ -47,8 +57,8 @@ class CellBeams {
     const scene::CameraPath& path_;
     scene::Film film_;
     bool camera_moves_;
-    trace::Camera camera_;  // at the shutter's middle
     const trace::Placement& placement_;
+    Eye eye_;  // at the shutter's middle
     const trace::Field& field_;
     double limit_;          // of rays, in the surface's units
     double bounding_ball_;  // radius around the surface's origin that holds all that is solid; infinite where none does

@@ -68,7 +68,7 @@ bool CellWindows::extend(WindowChain& chain, std::vector<trace::Window>& windows
     const trace::WindowPlan::Size size = next_size(chain);
     if (size.octaves == 0) return false;
     // Rays that come from this distance have at least that axis coordinate.
-    const double from = (chain.s - cell.shift) * kSooner, begin = from * cell.cosine * kSooner;
+    const double from = (chain.s - cell.margins.shift) * kSooner, begin = from * cell.margins.cosine * kSooner;
     const double half = half_length(beam, begin, size.radius);
     if (half <= 0.0) return false;
 
@@ -76,7 +76,7 @@ bool CellWindows::extend(WindowChain& chain, std::vector<trace::Window>& windows
     trace::Window& window = windows.emplace_back();
     window.centre = beam.origin + (begin + half) * beam.direction + beam.noise_shift;
     window.from = from;
-    window.to = (begin + 2.0 * half - cell.shift) * kSooner;
+    window.to = (begin + 2.0 * half - cell.margins.shift) * kSooner;
     window.octaves = size.octaves;
     const glm::dvec3 reach = glm::abs(window.centre);
     window.error = plan_.error(size, std::max({reach.x, reach.y, reach.z}));

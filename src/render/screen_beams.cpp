@@ -63,7 +63,7 @@ void ScreenBeams::split(int level, BeamedSamples& out) const {
     const int shift = hierarchy_.shift(level);
     const std::vector<std::uint64_t>& codes = out.samples.codes;
     out.children.clear();
-    out.cell_beams.clear();
+    out.margins.clear();
     out.beams.clear();
     for (const BeamedSamples::Node& node : out.nodes) {
         for (std::uint32_t i = node.first; i < node.last;) {
@@ -72,11 +72,10 @@ void ScreenBeams::split(int level, BeamedSamples& out) const {
             while (end < node.last && codes[end] >> shift == code) ++end;
             std::optional<CellBeam> cell = around_.around(hierarchy_.cell(code, level));
             if (!cell) cell.emplace();  // with a limit of 0: left at once
-            trace::Beam& beam = cell->beam;
-            beam.start = std::max(beam.start, node.reached * cell->cosine * kShort);
+            trace::Beam& beam = out.beams.emplace_back(cell->beam);
+            beam.start = std::max(beam.start, node.reached * cell->margins.cosine * kShort);
             beam.hint = node.hint;
-            out.beams.push_back(beam);
-            out.cell_beams.push_back(*cell);
+            out.margins.push_back(cell->margins);
             out.children.push_back({i, end, node.reached, node.hint});
             i = end;
         }
@@ -91,7 +90,7 @@ void ScreenBeams::keep(int level, BeamedSamples& out) const {
         bool misses = false;
         if (out.beams[i].limit > 0.0) {
             const trace::BeamEnd& end = out.ends[i];
-            node.reached = std::max(node.reached, (end.s - out.cell_beams[i].shift) * kShort);
+            node.reached = std::max(node.reached, (end.s - out.margins[i].shift) * kShort);
             node.hint = end.hint;
             misses = end.misses;
         }
@@ -101,7 +100,7 @@ void ScreenBeams::keep(int level, BeamedSamples& out) const {
             BeamedCell cell{node.first, node.last, misses, node.reached, node.hint};
             if (!misses && out.beams[i].limit > 0.0) {
                 cell.leaf = static_cast<std::int32_t>(out.leaves.size());
-                out.leaves.push_back({out.cell_beams[i], out.ends[i].s, out.ends[i].slope});
+                out.leaves.push_back({{out.beams[i], out.margins[i]}, out.ends[i].s, out.ends[i].slope});
             }
             out.cells.push_back(cell);
         }

@@ -37,8 +37,8 @@ struct BeamedSamples {
         float hint;
     };
     std::vector<Node> nodes, children;
-    std::vector<CellBeam> cell_beams;
-    std::vector<trace::Beam> beams;
+    std::vector<trace::Beam> beams;  // of the children
+    std::vector<CellBeam::Margins> margins;
     std::vector<trace::BeamEnd> ends;
 
     // The finest cells' beams, where they ended.

@@ -166,8 +166,8 @@ void measure(Random& random, const Scenery& scenery, const ScreenCell& cell, Exc
         const double radius = beam.radius0 + beam.spread * along;
         const double size = glm::length(beam.origin) + s;
         worst.across = std::max(worst.across, (across - radius) / size);
-        worst.ahead = std::max(worst.ahead, (along - (s + found->shift)) / size);
-        worst.behind = std::max(worst.behind, (s * found->cosine - found->shift - along) / size);
+        worst.ahead = std::max(worst.ahead, (along - (s + found->margins.shift)) / size);
+        worst.behind = std::max(worst.behind, (s * found->margins.cosine - found->margins.shift - along) / size);
         worst.before_start = std::max(worst.before_start, (beam.start - along) / size);
         worst.beyond_limit = std::max(worst.beyond_limit, (along - beam.limit) / size);
         worst.before_origin = std::max(worst.before_origin, -along / size);
@@ -275,7 +275,7 @@ TEST_CASE("every ray of a cell is free up to where the cell's beam ended, where 
             trace::BeamEnd end;
             trace::TraceCounters counters;
             trace::BeamTracer(scenery.field).trace({&found->beam, 1}, {&end, 1}, counters);
-            const double free = std::min(end.s - found->shift, scenery.scene.camera.far);
+            const double free = std::min(end.s - found->margins.shift, scenery.scene.camera.far);
             if (!(free > 0.0)) continue;
             ++passed;
             const oracle::FieldOracle field(oracle::shape_of(scenery.scene.surface));

@@ -37,12 +37,12 @@ struct WindowedRays {
             // As though eye and noise had moved by some.
             if (random() % 4 == 0) beam.radius0 = spread * log_uniform(random, 1e-3, 1.0);
             if (random() % 4 == 0) beam.noise_radius = spread * log_uniform(random, 1e-2, 30.0);
-            cells[i].shift = 2.0 * beam.radius0;
+            cells[i].margins.shift = 2.0 * beam.radius0;
             beam.origin = rays[i].origin + 0.999 * beam.radius0 * unit_vector(random) - beam.radius0 * beam.direction;
             beam.noise_shift = rays[i].noise_shift + 0.999 * beam.noise_radius * unit_vector(random);
             beam.spread = spread;
             beam.limit = rays[i].limit;
-            cells[i].cosine = 1.0 / std::sqrt(1.0 + spread * spread);
+            cells[i].margins.cosine = 1.0 / std::sqrt(1.0 + spread * spread);
             const bool is_anywhere = random() % 4 == 0;
             const double from = is_anywhere ? uniform(random, 0.0, 1.0) * rays[i].limit
                                             : hits[i].s_outside * (1.0 - log_uniform(random, 1e-4, 0.1));
