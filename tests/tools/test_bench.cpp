@@ -294,6 +294,19 @@ TEST_CASE("phases add up by name, and their shares are told and drawn") {
     CHECK(json["cases"][0]["phases"][1]["evaluations_per_ray"].get<double>() == Approx(0.5));
 }
 
+namespace {
+
+bool measure_round(Measurement& m, const render::CancelToken& cancel) {
+    CaseRound round(m.what);
+    for (std::size_t piece = 0; piece < round.pieces(); ++piece) {
+        if (!round.measure_piece(cancel, [](const render::Progress&) {})) return false;
+    }
+    round.add_to(m);
+    return true;
+}
+
+}  // namespace
+
 TEST_CASE("every round of a case does the same work, whatever the time") {
     Case what{"hyperterrain", hyperterrain().scene, blocks_of(64, 36, 16, 2, 1)};
     what.scene.film.width = 64;
@@ -301,23 +314,23 @@ TEST_CASE("every round of a case does the same work, whatever the time") {
     what.scene.sampling.N = 2;
     const render::CancelToken cancel;
     Measurement m{.what = what};
-    REQUIRE(measure_round(m, cancel, [](const render::Progress&) {}));
+    REQUIRE(measure_round(m, cancel));
     const render::Counters first = m.counters;
-    REQUIRE(measure_round(m, cancel, [](const render::Progress&) {}));
+    REQUIRE(measure_round(m, cancel));
     CHECK(m.cpu_s.size() == 2);
     CHECK(first.rays == static_cast<std::uint64_t>(what.subset.pixels()) * 4);
     CHECK(m.counters.noise_evaluations == first.noise_evaluations);
     CHECK(m.evaluations_a_ray() > 8);
     // Different work is noticed.
     m.what.scene.surface.octaves = 3;
-    CHECK_THROWS_AS(measure_round(m, cancel, [](const render::Progress&) {}), std::runtime_error);
+    CHECK_THROWS_AS(measure_round(m, cancel), std::runtime_error);
 }
 
 TEST_CASE("a cancelled round leaves a measurement as it was") {
     Measurement m{.what = {"hyperterrain", hyperterrain().scene, blocks_of(960, 540, 16, 1, 1)}};
     render::CancelToken cancel;
     cancel.request();
-    CHECK_FALSE(measure_round(m, cancel, [](const render::Progress&) {}));
+    CHECK_FALSE(measure_round(m, cancel));
     CHECK(m.cpu_s.empty());
     CHECK(find({m}, m.what.id()) == nullptr);
 }

@@ -14,42 +14,9 @@ namespace strata::tools::bench {
 
 namespace {
 
-struct Round {
-    render::Counters counters;
-    double cpu_s = 0, wall_s = 0;
-    std::vector<Phase> phases;
-};
-
 bool same_work(const render::Counters& a, const render::Counters& b) {
     return a.rays == b.rays && a.shadow_rays == b.shadow_rays && a.hits == b.hits &&
            a.noise_evaluations == b.noise_evaluations && a.steps == b.steps;
-}
-
-// The image function is made anew each time: nothing that it may remember makes a later round cheaper.
-bool render_windows(const Case& what, const render::CancelToken& cancel, const render::ProgressCallback& on_progress,
-                    Round& round) {
-    const auto image = render::make_image(what.scene, what.tracer);
-    const render::Estimator estimator(render::estimator_settings(what.scene));
-    render::RenderOptions options;
-    options.threads = what.threads;
-    options.cancel = &cancel;
-    const double total = static_cast<double>(what.subset.pixels());
-    double done = 0;
-    for (const render::Window& window : what.subset.windows) {
-        const double share = static_cast<double>(window.width()) * window.height() / total;
-        options.on_progress = [&](const render::Progress& progress) {
-            on_progress({done + share * progress.fraction, round.counters.rays + progress.rays,
-                         round.wall_s + progress.seconds});
-        };
-        const render::RenderResult result = render::render(*image, estimator, window, options);
-        if (result.cancelled) return false;
-        done += share;
-        round.counters += result.counters;
-        round.cpu_s += result.cpu_seconds;
-        round.wall_s += result.seconds;
-        add_phases(round.phases, phases_of(result));
-    }
-    return true;
 }
 
 }  // namespace
@@ -63,21 +30,50 @@ double Measurement::ns_an_evaluation(Pick pick) const {
     return counters.noise_evaluations == 0 ? 0 : ns_a_ray(pick) / evaluations_a_ray();
 }
 
-bool measure_round(Measurement& measurement, const render::CancelToken& cancel,
-                   const render::ProgressCallback& on_progress) {
-    Round round;
-    if (!render_windows(measurement.what, cancel, on_progress, round)) return false;
+struct CaseRound::State {
+    const Case& what;
+    std::unique_ptr<render::ImageFunction> image = render::make_image(what.scene, what.tracer);
+    render::Estimator estimator{render::estimator_settings(what.scene)};
+    std::size_t next = 0;
+    render::Counters counters{};
+    double cpu_s = 0, wall_s = 0;
+    std::vector<Phase> phases{};
+};
+
+CaseRound::CaseRound(const Case& what) : state_(new State{what}) {}
+CaseRound::~CaseRound() = default;
+CaseRound::CaseRound(CaseRound&&) noexcept = default;
+
+std::size_t CaseRound::pieces() const { return state_->what.subset.windows.size(); }
+
+bool CaseRound::measure_piece(const render::CancelToken& cancel, const render::ProgressCallback& on_progress) {
+    State& round = *state_;
+    render::RenderOptions options;
+    options.threads = round.what.threads;
+    options.cancel = &cancel;
+    options.on_progress = on_progress;
+    const render::RenderResult result =
+        render::render(*round.image, round.estimator, round.what.subset.windows.at(round.next++), options);
+    if (result.cancelled) return false;
+    round.counters += result.counters;
+    round.cpu_s += result.cpu_seconds;
+    round.wall_s += result.seconds;
+    add_phases(round.phases, phases_of(result));
+    return true;
+}
+
+void CaseRound::add_to(Measurement& measurement) const {
+    const State& round = *state_;
     if (!measurement.cpu_s.empty() && !same_work(round.counters, measurement.counters)) {
         throw std::runtime_error(
             fmt::format("{}: two rounds of the same render did different work", measurement.what.id()));
     }
     if (measurement.cpu_s.empty() || round.cpu_s < pick_of(measurement.cpu_s, Pick::least)) {
-        measurement.phases = std::move(round.phases);
+        measurement.phases = round.phases;
     }
     measurement.counters = round.counters;
     measurement.cpu_s.push_back(round.cpu_s);
     measurement.wall_s.push_back(round.wall_s);
-    return true;
 }
 
 const Measurement* find(const std::vector<Measurement>& all, const std::string& id) {

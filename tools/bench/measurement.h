@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,10 +31,28 @@ struct Measurement {
     double ns_an_evaluation(Pick pick) const;
 };
 
-// One more round of the case. Throws std::runtime_error if its counts are not those of the rounds before: equal renders
-// do equal work. False, with nothing added, if cancelled.
-bool measure_round(Measurement& measurement, const render::CancelToken& cancel,
-                   const render::ProgressCallback& on_progress);
+// One more round of a case, in the pieces that its subset has, so that the cases of a run can take turns: ratios of
+// their times then owe little to what else the machine is doing.
+class CaseRound {
+  public:
+    // The image function is made anew: nothing that it may remember makes a later round cheaper.
+    explicit CaseRound(const Case& what);
+    ~CaseRound();
+    CaseRound(CaseRound&&) noexcept;
+
+    std::size_t pieces() const;
+
+    // Each once, in order. False, and the round is void, if cancelled.
+    bool measure_piece(const render::CancelToken& cancel, const render::ProgressCallback& on_progress);
+
+    // Adds the whole round to the case's. Throws std::runtime_error if its counts are not those of the rounds before:
+    // equal renders do equal work.
+    void add_to(Measurement& measurement) const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 // The one with this id; nullptr if there is none, or it has no round.
 const Measurement* find(const std::vector<Measurement>& all, const std::string& id);

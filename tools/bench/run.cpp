@@ -1,5 +1,8 @@
 #include "tools/bench/run.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "tools/batch_progress.h"
 #include "tools/bench/memory.h"
 #include "tools/bench/peers.h"
@@ -13,6 +16,23 @@ double weight_of(const Case& what) {
     const double samples = static_cast<double>(what.scene.sampling.N) * what.scene.sampling.N;
     const double rays = static_cast<double>(what.subset.pixels()) * samples;
     return (what.tracer == render::Tracer::reference ? 40 * rays : rays) / what.threads;
+}
+
+// One more round of every case, piece by piece in turn. False if cancelled.
+bool measure_round(std::vector<Measurement>& measurements, BatchProgress& progress, const render::CancelToken& cancel) {
+    std::vector<CaseRound> rounds;
+    std::size_t pieces = 0;
+    for (const Measurement& m : measurements) pieces = std::max(pieces, rounds.emplace_back(m.what).pieces());
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+        for (std::size_t i = 0; i < rounds.size(); ++i) {
+            if (piece >= rounds[i].pieces()) continue;
+            const double share = 1.0 / static_cast<double>(rounds[i].pieces());
+            const auto show = progress.next(weight_of(measurements[i].what) * share);
+            if (!rounds[i].measure_piece(cancel, show)) return false;
+        }
+    }
+    for (std::size_t i = 0; i < rounds.size(); ++i) rounds[i].add_to(measurements[i]);
+    return true;
 }
 
 }  // namespace
@@ -29,10 +49,7 @@ Results run(const Plan& plan, int rounds, render::ProgressPrinter& progress, con
     BatchProgress batch(total, progress.callback());
     std::vector<Measurement> whole_rounds = results.measurements;
     for (int round = 0; round < rounds && !cancel.requested(); ++round) {
-        bool finished = true;
-        for (Measurement& m : results.measurements) {
-            if (!(finished = measure_round(m, cancel, batch.next(weight_of(m.what))))) break;
-        }
+        bool finished = measure_round(results.measurements, batch, cancel);
         if (finished && peers) finished = peers->measure_round(cancel);
         if (!finished) break;
         whole_rounds = results.measurements;
