@@ -14,9 +14,6 @@ namespace strata::trace::HWY_NAMESPACE {
 // Exchange finished lanes once this fraction of the packet is idle. Speed only.
 constexpr std::size_t kIdleFraction = 8;
 
-// Packets that take turns: the processor begins with one while it waits for what ends a step of another. Speed only.
-constexpr std::size_t kPackets = 2;
-
 // Oversteps, in safe steps: what each success adds, the most, and where to begin anew after a failure; none shorter
 // than some tolerances. Speed only.
 constexpr float kRelaxGain = 0.2f, kMostRelax = 0.9f, kRelaxAfterFailure = 0.0f, kLeastOverstep = 2.0f;
@@ -246,18 +243,14 @@ template <SurfaceKind kKind, bool kDrifts, bool kWindows>
 HWY_NOINLINE void trace_moving(const Field& field, const TracePlan& plan, std::span<const Ray> rays,
                                std::span<Hit> hits, TraceCounters& counters) {
     const std::size_t lanes = hn::Lanes(FloatTag());
-    Packet packets[kPackets];
-    for (Packet& packet : packets) std::fill_n(packet.ray, lanes, kNoRay);
-    for (std::size_t next = 0, active = 1; active > 0;) {
-        active = 0;
-        for (Packet& packet : packets) {
-            if (next < rays.size() && packet.active_count + lanes / kIdleFraction <= lanes) {
-                refill(field, plan, rays, hits, next, packet);
-            }
-            if (packet.active_count == 0) continue;
-            step<kKind, kDrifts, kWindows>(field, plan, packet, hits, counters);
-            active += packet.active_count;
+    Packet packet;
+    std::fill_n(packet.ray, lanes, kNoRay);
+    for (std::size_t next = 0;;) {
+        if (next < rays.size() && packet.active_count + lanes / kIdleFraction <= lanes) {
+            refill(field, plan, rays, hits, next, packet);
         }
+        if (packet.active_count == 0) return;
+        step<kKind, kDrifts, kWindows>(field, plan, packet, hits, counters);
     }
 }
 
