@@ -86,7 +86,7 @@ void Gradients(const Field& field, const TracePlan& plan, std::span<const Hit> h
     block.least = octaves;
     for (std::size_t i = 0; i < x.size(); ++i) {
         const std::size_t first = hits.empty() ? 0 : hits[i].octaves;
-        if (first == octaves) {
+        if (!hits.empty() && first == octaves) {
             gradient[i] = hits[i].gradient;
             continue;
         }
