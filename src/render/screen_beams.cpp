@@ -118,7 +118,9 @@ void ScreenBeams::trace(const SampleBatch& batch, BeamedSamples& out, trace::Tra
         tracer_.trace(out.beams, out.ends, counters);
         keep(level, out);
     }
-    std::ranges::sort(out.cells, {}, &BeamedCell::first);
+    // Mostly all are of the finest level, and in order.
+    if (!std::ranges::is_sorted(out.cells, {}, &BeamedCell::first))
+        std::ranges::sort(out.cells, {}, &BeamedCell::first);
 }
 
 void ScreenBeams::open_windows(const BeamedSamples& beamed, std::span<const BeamedCell> cells, WindowChains& out,

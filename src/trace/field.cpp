@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "noise/bounds.h"
 #include "noise/reference.h"
@@ -28,21 +27,6 @@ std::vector<noise::Octave> live_octaves(const scene::Surface& surface) {
         return octave.amplitude <= least && octave.amplitude * octave.frequency <= least_slope;
     });
     return octaves;
-}
-
-// The slab's plane and the planet's shell are moved outwards by this fraction of the lengths involved, far above the
-// rounding of the roots in double. An isosurface's bound is a surface itself and stays where it is.
-constexpr double kClipSlack = 1e-9;
-
-Interval clip_below(double height, double top, double slope, double limit) {
-    const double padded = top + kClipSlack * (std::abs(top) + std::abs(height));
-    if (height > padded) {
-        if (slope >= 0.0) return {};
-        return {std::min((padded - height) / slope, limit), limit};
-    }
-    // A ray that leaves a smooth plane from the plane itself still has its first point.
-    constexpr double kLeast = std::numeric_limits<double>::min();
-    return {0.0, slope > 0.0 ? std::min(limit, std::max((padded - height) / slope, kLeast)) : limit};
 }
 
 Interval clip_ball(const glm::dvec3& origin, const glm::dvec3& direction, double radius, double limit) {
@@ -141,24 +125,15 @@ glm::dvec3 Field::gradient(const glm::dvec3& x, const glm::dvec3& shift) const {
     return gradient;
 }
 
-Interval Field::clip(const glm::dvec3& origin, const glm::dvec3& direction, double limit) const {
-    switch (surface_.kind) {
-        case SurfaceKind::terrain:
-        case SurfaceKind::hyperterrain:
-            return clip_below(origin.y, amplitude_, direction.y, limit);
-        case SurfaceKind::planet: {
-            const double reach = surface_.radius + amplitude_;
-            Interval shell = clip_ball(origin, direction, reach + kClipSlack * (reach + glm::length(origin)), limit);
-            shell.enters_bound = false;
-            return shell;
-        }
-        case SurfaceKind::isosurface:
-            if (surface_.bound == scene::BoundKind::box) {
-                return clip_box(origin, direction, surface_.bound_size, limit);
-            }
-            return clip_ball(origin, direction, surface_.bound_size.x, limit);
+Interval Field::clip_bounded(const glm::dvec3& origin, const glm::dvec3& direction, double limit) const {
+    if (surface_.kind == SurfaceKind::planet) {
+        const double reach = surface_.radius + amplitude_;
+        Interval shell = clip_ball(origin, direction, reach + kClipSlack * (reach + glm::length(origin)), limit);
+        shell.enters_bound = false;
+        return shell;
     }
-    return {};
+    if (surface_.bound == scene::BoundKind::box) return clip_box(origin, direction, surface_.bound_size, limit);
+    return clip_ball(origin, direction, surface_.bound_size.x, limit);
 }
 
 glm::dvec3 Field::bound_normal(const glm::dvec3& x) const {

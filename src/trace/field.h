@@ -9,7 +9,10 @@
 // This is the reference path: scalar double, by the definition.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
+#include <limits>
 #include <vector>
 
 #include "noise/fbm.h"
@@ -61,12 +64,32 @@ class Field {
     glm::dvec3 gradient(const glm::dvec3& x, const glm::dvec3& shift = glm::dvec3(0.0)) const;
 
     // The part of the ray origin + s direction, s in [0, limit), outside of which f > 0. direction is of unit length.
-    Interval clip(const glm::dvec3& origin, const glm::dvec3& direction, double limit) const;
+    Interval clip(const glm::dvec3& origin, const glm::dvec3& direction, double limit) const {
+        const bool is_slab = kind() == scene::SurfaceKind::terrain || kind() == scene::SurfaceKind::hyperterrain;
+        return is_slab ? clip_slab(origin.y, direction.y, limit) : clip_bounded(origin, direction, limit);
+    }
 
     // Outward normal of the isosurface's bound at a point of it.
     glm::dvec3 bound_normal(const glm::dvec3& x) const;
 
   private:
+    // The slab's plane and the planet's shell are moved outwards by this fraction of the lengths involved, far above
+    // the rounding of the roots in double. An isosurface's bound is a surface itself and stays where it is.
+    static constexpr double kClipSlack = 1e-9;
+
+    // Below the greatest height.
+    Interval clip_slab(double height, double slope, double limit) const {
+        const double padded = amplitude_ + kClipSlack * (amplitude_ + std::abs(height));
+        if (height > padded) {
+            if (slope >= 0.0) return {};
+            return {std::min((padded - height) / slope, limit), limit};
+        }
+        // A ray that leaves a smooth plane from the plane itself still has its first point.
+        constexpr double kLeast = std::numeric_limits<double>::min();
+        return {0.0, slope > 0.0 ? std::min(limit, std::max((padded - height) / slope, kLeast)) : limit};
+    }
+    Interval clip_bounded(const glm::dvec3& origin, const glm::dvec3& direction, double limit) const;
+
     scene::Surface surface_;
     std::vector<noise::Octave> octaves_;
     double amplitude_ = 0.0;

@@ -28,6 +28,7 @@ WindowPlan::WindowPlan(const Field& field) : sums_(field.octaves().size() + 1) {
         sums.linear += a * w * (errors.slope + 56.0 * kUnit * bounds.gradient);
         sums.square += a * w * w * (1.5 * errors.hessian_entry + 134.0 * kUnit * bounds.second);
         sums.cube += a * w * w * w * bounds.third / 6.0;
+        sums.inverse_cube = 1.0 / sums.cube;
         sums.slope += a * w * bounds.gradient;
         for (const double offset : octave.offset) sums.offset = std::max(sums.offset, std::abs(offset) / w);
         sums_[k + 1] = sums;
@@ -42,7 +43,7 @@ WindowPlan::Size WindowPlan::size(double error) const {
     for (std::size_t k = sums_.size(); k-- > 1;) {
         const double left = error - sums_[k].still - sums_[k].rest;
         if (left <= 0.0) break;
-        const double cube = left / sums_[k].cube;
+        const double cube = left * sums_[k].inverse_cube;
         if (cube > best.radius) best = {static_cast<std::uint32_t>(k), cube};
     }
     best.radius = std::cbrt(best.radius);

@@ -44,8 +44,9 @@ class WindowPlan {
     // Of the octaves before one.
     struct Sums {
         double still = 0.0, linear = 0.0, square = 0.0, cube = 0.0;  // of the error, by powers of the radius
-        double slope = 0.0;                                          // A1
-        double offset = 0.0;                                         // greatest |offset / w| on an axis
+        double inverse_cube = 0.0;
+        double slope = 0.0;   // A1
+        double offset = 0.0;  // greatest |offset / w| on an axis
         double rest = 0.0;
     };
     std::vector<Sums> sums_;
