@@ -53,6 +53,30 @@ TEST_CASE("albedo is low, high and steep well inside their bands, and half-way a
     CHECK(!close(albedo(material, 0.0, cos_deg(41.0)), glm::vec3(material.steep), 1e-2));
 }
 
+TEST_CASE("albedo is what its definition gives in double, arc cosine and all, to 1e-6") {
+    const scene::Material material;
+    const auto blend = [](double x, double centre, double width) {
+        const double s = std::clamp((x - centre) / width + 0.5, 0.0, 1.0);
+        return s * s * (3.0 - 2.0 * s);
+    };
+    std::mt19937_64 random(6);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    double worst = 0.0;
+    for (int i = 0; i < 200000; ++i) {
+        const double height = 0.25 + 0.1 * unit(random);
+        const double cosine = i % 2 == 0 ? unit(random) : cos_deg(38.0 + 7.0 * unit(random));
+        const double slope_deg = std::acos(cosine) * 180.0 / std::numbers::pi;
+        const double steep = blend(slope_deg, material.steep_deg, material.steep_width_deg);
+        const double high = blend(height, material.band_height, material.band_width);
+        const glm::dvec3 expected =
+            (material.low * (1.0 - high) + material.high * high) * (1.0 - steep) + material.steep * steep;
+        const glm::dvec3 off = glm::abs(glm::dvec3(albedo(material, height, cosine)) - expected);
+        worst = std::max({worst, off.r, off.g, off.b});
+    }
+    CHECK(worst <= 1e-6);
+    MESSAGE("off, observed / bound: ", worst / 1e-6);
+}
+
 TEST_CASE("albedo is a convex mix of the three reflectances") {
     // With the axes as reflectances, the mix is its own weights.
     scene::Material material;

@@ -100,6 +100,28 @@ TEST_CASE("u goes right and v goes down in a right-handed world") {
     CHECK(camera.ray(32, 0).direction.y > 0.0);
 }
 
+TEST_CASE("a turned camera's rays and position are the camera's own in the other axes") {
+    Random random(25);
+    double worst = 0.0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        const View view = random_view(random);
+        const trace::Camera camera(view.camera, view.film);
+        const glm::dvec3 x = unit_vector(random), z = glm::normalize(glm::cross(x, unit_vector(random)));
+        const glm::dmat3 axes(x, glm::cross(z, x), z);
+        const trace::Camera turned = camera.turned(axes);
+        const double u = uniform(random, 0, view.film.width), v = uniform(random, 0, view.film.height);
+        const trace::CameraRay ray = camera.ray(u, v), other = turned.ray(u, v);
+        CHECK(other.pixel_angle == doctest::Approx(ray.pixel_angle).epsilon(1e-12));
+        for (int a = 0; a < 3; ++a) {
+            worst = std::max(worst, std::abs(other.direction[a] - glm::dot(ray.direction, axes[a])));
+            CHECK(std::abs(turned.position()[a] - glm::dot(camera.position(), axes[a])) <=
+                  1e-15 * glm::length(camera.position()));
+        }
+    }
+    CHECK(worst < 4e-15);
+    MESSAGE("directions off, observed / bound: ", worst / 4e-15);
+}
+
 TEST_CASE("looking straight along up, or nearly so, gives finite rays of the right angles") {
     Random random(24);
     for (int trial = 0; trial < 300; ++trial) {
