@@ -114,9 +114,9 @@ void probe_field(const SceneArgument& argument) {
     });
 }
 
-void print_ray(const render::SurfaceImage& image, const trace::Ray& world, double t) {
+// ray: `world` in the surface's coordinates.
+void print_ray(const render::SurfaceImage& image, const trace::Ray& world, const trace::Ray& ray, double t) {
     const glm::dmat3 orientation = orientation_at(image.placement(), t);
-    const trace::Ray ray = image.to_local(orientation, world, t);
     trace::Hit hit;
     trace::TraceCounters counters;
     image.trace({&ray, 1}, {&hit, 1}, counters);
@@ -164,7 +164,9 @@ void probe_pixel_ray(const RayRequest& request, const scene::Scene& scene, const
         v = chosen.v;
         t = chosen.time_s;
     }
-    print_ray(image, image.camera_ray(pixel.x + 0.5 + u, pixel.y + 0.5 + v, t), t);
+    u += pixel.x + 0.5;
+    v += pixel.y + 0.5;
+    print_ray(image, image.camera_ray(u, v, t), image.local_camera_ray(u, v, t), t);
 }
 
 void probe_ray(const RayRequest& request) {
@@ -180,7 +182,8 @@ void probe_ray(const RayRequest& request) {
         check_within_reach(image.field(),
                            distance / image.placement().scale() + glm::length(image.field().noise_shift(t)));
         const glm::dvec3 direction = near_unit_length({in[3], in[4], in[5]});
-        print_ray(image, image.world_ray(origin, direction, t), t);
+        const trace::Ray world = image.world_ray(origin, direction, t);
+        print_ray(image, world, image.to_local(orientation_at(image.placement(), t), world, t), t);
     });
 }
 

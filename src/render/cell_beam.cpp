@@ -28,7 +28,8 @@ CellBeams::CellBeams(const scene::Scene& scene, const scene::CameraPath& path, c
       film_(scene.film),
       camera_moves_(path.moves_during(scene::open_shutter(scene))),
       placement_(placement),
-      eye_(eye_at(middle_of(scene::open_shutter(scene)))),
+      eye_(eye_at(trace::Camera(path.at(middle_of(scene::open_shutter(scene))), scene.film),
+                  middle_of(scene::open_shutter(scene)))),
       field_(field),
       limit_(scene.camera.far / placement.scale()),
       bounding_ball_(bounding_ball(field)),
@@ -40,9 +41,8 @@ CellBeams::CellBeams(const scene::Scene& scene, const scene::CameraPath& path, c
     typical_distance_ = std::max(typical_distance_, 1e-300);
 }
 
-CellBeams::Eye CellBeams::eye_at(double time) const {
+CellBeams::Eye CellBeams::eye_at(const trace::Camera& world, double time) const {
     const glm::dmat3 orientation = placement_.orientation(time);
-    const trace::Camera world(path_.at(time), film_);
     return {world, world.turned(orientation), placement_.point_to_local(orientation, world.position())};
 }
 
@@ -91,16 +91,19 @@ double CellBeams::enters(const trace::Beam& beam, double angle, double eye_shift
 std::optional<CellBeam> CellBeams::around(const ScreenCell& cell) const {
     const double middle = middle_of(cell.time);
     std::optional<Eye> moved;
-    if (camera_moves_ || placement_.moves()) moved = eye_at(middle);
+    if (camera_moves_) {
+        moved = eye_at(trace::Camera(path_.at(middle), film_), middle);
+    } else if (placement_.moves()) {
+        moved = eye_at(eye_.world, middle);
+    }
     const Eye& eye = moved ? *moved : eye_;
     const trace::CameraCone cone = eye.local.cone(cell.x, cell.y, cell.side);
     if (!(cone.tangent <= kWidest)) return std::nullopt;
     const std::optional<Sweep> bounds = sweep(cell, eye.world);
     if (!bounds) return std::nullopt;
     const Sweep& swept = *bounds;
-    const bool is_bounded = std::isfinite(bounding_ball_);
-    const double half_angle = is_bounded || swept.angle > 0.0 ? std::atan(cone.tangent) + swept.angle : 0.0;
-    const double tangent = swept.angle > 0.0 ? std::tan(half_angle) * kPad : cone.tangent;
+    const auto half_angle = [&] { return std::atan(cone.tangent) + swept.angle; };
+    const double tangent = swept.angle > 0.0 ? std::tan(half_angle()) * kPad : cone.tangent;
     if (!(tangent <= kWidest && tangent >= 0.0)) return std::nullopt;
 
     CellBeam result;
@@ -114,8 +117,8 @@ std::optional<CellBeam> CellBeams::around(const ScreenCell& cell) const {
     beam.spread = tangent;
     beam.noise_radius = swept.noise;
     beam.limit = limit_ + result.margins.shift;
-    if (is_bounded) {
-        const double entry = enters(beam, half_angle, swept.eye_shift);
+    if (std::isfinite(bounding_ball_)) {
+        const double entry = enters(beam, half_angle(), swept.eye_shift);
         beam.start = entry * result.margins.cosine;
         beam.limit = std::min(beam.limit, glm::length(beam.origin) + bounding_ball_ + swept.shift);
     }

@@ -43,12 +43,13 @@ class CellBeams {
         double noise = 0.0;      // of the noise
         double eye_shift = 0.0;  // what of `shift` is the eye's way towards or from the surface
     };
-    // The camera at some time: in the world, and in the surface's axes, where it is at `origin`.
+    // The camera at some time: in the world, and turned into the surface's axes; `origin` is where it is in the
+    // surface's coordinates.
     struct Eye {
         trace::Camera world, local;
         glm::dvec3 origin;
     };
-    Eye eye_at(double time) const;
+    Eye eye_at(const trace::Camera& world, double time) const;
 
     std::optional<Sweep> sweep(const ScreenCell& cell, const trace::Camera& camera) const;
     double enters(const trace::Beam& beam, double angle, double eye_shift) const;

@@ -20,20 +20,6 @@ constexpr double kBias = 1 << (kAxisBits - 1);
 // Covers the rounding of a time's interval.
 constexpr double kTimeSlack = 1e-9;
 
-// Bits of x at even places, bits of y at odd ones, of 16 each.
-std::uint64_t interleave_16(std::uint64_t x, std::uint64_t y) {
-    std::uint64_t both = x | y << 32;
-    both = (both | both << 8) & 0x00ff'00ff'00ff'00ff;
-    both = (both | both << 4) & 0x0f0f'0f0f'0f0f'0f0f;
-    both = (both | both << 2) & 0x3333'3333'3333'3333;
-    both = (both | both << 1) & 0x5555'5555'5555'5555;
-    return (both | both >> 31) & 0xffff'ffff;
-}
-
-std::uint64_t interleave(std::uint32_t x, std::uint32_t y) {
-    return interleave_16(x & 0xffff, y & 0xffff) | interleave_16(x >> 16, y >> 16) << 32;
-}
-
 std::uint64_t gather_bits(std::uint64_t x) {
     x &= 0x5555'5555'5555'5555;
     x = (x | x >> 1) & 0x3333'3333'3333'3333;
@@ -41,14 +27,6 @@ std::uint64_t gather_bits(std::uint64_t x) {
     x = (x | x >> 4) & 0x00ff'00ff'00ff'00ff;
     x = (x | x >> 8) & 0x0000'ffff'0000'ffff;
     return (x | x >> 16) & 0xffff'ffff;
-}
-
-// Leaves are wide enough for every frame to lie within kBias of them.
-std::uint32_t column_of(double x) {
-    const double inside = std::clamp(x, -kBias, kBias - 1.0);
-    const auto toward_zero = static_cast<std::int32_t>(inside);
-    const std::int32_t below = toward_zero > inside ? 1 : 0;
-    return static_cast<std::uint32_t>(toward_zero - below + static_cast<std::int32_t>(kBias));
 }
 
 constexpr double power_of_two(int exponent) { return static_cast<double>(std::uint64_t{1} << exponent); }
@@ -76,9 +54,7 @@ int ScreenHierarchy::shift(int level) const { return 2 * kLevelBits * level + ti
 
 // From the top: the coarsest cell's column and row interleaved, then for each finer level two bits of each and the
 // level's bits of the time.
-std::uint64_t ScreenHierarchy::code(double u, double v, double t) const {
-    const std::uint64_t square = interleave(column_of(u * cells_a_pixel_), column_of(v * cells_a_pixel_));
-    if (time_bits_ == 0) return square;
+std::uint64_t ScreenHierarchy::with_time(std::uint64_t square, double t) const {
     const double most = (1 << time_bits_) - 1;
     const auto time = static_cast<std::uint64_t>(std::clamp(std::floor((t - shutter_.first) / interval_), 0.0, most));
     std::uint64_t code = square >> (2 * kLevelBits * (levels_ - 1));
@@ -87,6 +63,20 @@ std::uint64_t ScreenHierarchy::code(double u, double v, double t) const {
         code = code << (2 * kLevelBits) | low_bits(square >> (2 * kLevelBits * level), 2 * kLevelBits);
         code = code << new_bits | low_bits(time >> (time_bits_ - time_bits_at(level)), new_bits);
     }
+    return code;
+}
+
+// Leaves are wide enough for every frame to lie within kBias of them.
+void ScreenHierarchy::codes(std::span<const double> u, std::span<const double> v, std::span<const double> t,
+                            std::span<std::uint64_t> out) const {
+    interleave_columns(u, v, cells_a_pixel_, kBias, out);
+    if (time_bits_ == 0) return;
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = with_time(out[i], t[i]);
+}
+
+std::uint64_t ScreenHierarchy::code(double u, double v, double t) const {
+    std::uint64_t code = 0;
+    codes({&u, 1}, {&v, 1}, {&t, 1}, {&code, 1});
     return code;
 }
 
@@ -113,13 +103,6 @@ ScreenCell ScreenHierarchy::cell(std::uint64_t shifted, int level) const {
     const double slack = kTimeSlack * (shutter_.last - shutter_.first);
     cell.time = {first - slack, first + length + slack};
     return cell;
-}
-
-void ScreenHierarchy::codes(std::span<const double> u, std::span<const double> v, std::span<const double> t,
-                            std::span<std::uint64_t> out) const {
-    if (time_bits_ == 0)
-        return interleave_columns(u.first(out.size()), v.first(out.size()), cells_a_pixel_, kBias, out);
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = code(u[i], v[i], t[i]);
 }
 
 // By digits, the least first; each pass keeps the order of equal ones.

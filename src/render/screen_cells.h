@@ -33,6 +33,8 @@ class ScreenHierarchy {
     double side(int level) const;
 
     std::uint64_t code(double u, double v, double t) const;
+
+    // Of many; all of a length.
     void codes(std::span<const double> u, std::span<const double> v, std::span<const double> t,
                std::span<std::uint64_t> out) const;
 
@@ -44,6 +46,7 @@ class ScreenHierarchy {
 
   private:
     int time_bits_at(int level) const;
+    std::uint64_t with_time(std::uint64_t square, double t) const;
 
     double leaf_;
     double cells_a_pixel_;  // exact: leaf_ is a power of two

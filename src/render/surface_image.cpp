@@ -1,7 +1,6 @@
 #include "src/render/surface_image.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 

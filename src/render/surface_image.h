@@ -44,6 +44,9 @@ class SurfaceImage final : public ImageFunction {
     // The camera's ray through a point of the screen at a time, in the world, with the scene's tolerance.
     trace::Ray camera_ray(double u, double v, double t) const;
 
+    // The same in the surface's coordinates, to the bit as the picture has it.
+    trace::Ray local_camera_ray(double u, double v, double t) const;
+
     // A ray of the world with the tolerance that the centre of the screen has at that time.
     trace::Ray world_ray(const glm::dvec3& origin, const glm::dvec3& direction, double t) const;
 
@@ -63,6 +66,7 @@ class SurfaceImage final : public ImageFunction {
 
   private:
     struct Chunk;
+    struct Instant;
     struct Lit;
 
     void evaluate_beamed(const SampleBatch& samples, std::span<glm::vec3> radiance, std::span<SampleCost> costs,
@@ -74,6 +78,9 @@ class SurfaceImage final : public ImageFunction {
     void gradients(std::span<const trace::Hit> hits, std::span<const glm::dvec3> x,
                    std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient,
                    trace::TraceCounters& counters) const;
+    Instant instant(double t) const;
+    void set_time(Instant& instant, double t) const;
+    void aim(const Instant& instant, double u, double v, trace::Ray& ray) const;
     void make_rays(const SampleBatch& samples, Chunk& chunk) const;
     void gather_hits(std::span<glm::vec3> radiance, Chunk& chunk, Counters& counters) const;
     double shadow_spacing(const Chunk& chunk, std::size_t i) const;

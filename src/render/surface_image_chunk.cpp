@@ -11,6 +11,33 @@
 
 namespace strata::render {
 
+SurfaceImage::Instant SurfaceImage::instant(double t) const {
+    const trace::Camera camera = path_.moves() ? trace::Camera(path_.at(t), scene_.film) : camera_;
+    const glm::dmat3 orientation = placement_.orientation(t);
+    const trace::Ray world = camera_ray(camera, 0.5 * scene_.film.width, 0.5 * scene_.film.height);
+    return {orientation, world, camera.turned(orientation), to_local(orientation, world, t)};
+}
+
+void SurfaceImage::set_time(Instant& now, double t) const {
+    if (path_.moves() || placement_.moves()) {
+        now = instant(t);
+    } else if (field_.drifts()) {
+        now.ray = to_local(now.orientation, now.world, t);
+    }
+}
+
+void SurfaceImage::aim(const Instant& now, double u, double v, trace::Ray& ray) const {
+    const trace::CameraRay seen = now.eye.ray(u, v);
+    ray = now.ray;
+    trace::Placement::aim(ray, seen.direction, scene_.sampling.tolerance * seen.pixel_angle);
+}
+
+trace::Ray SurfaceImage::local_camera_ray(double u, double v, double t) const {
+    trace::Ray ray;
+    aim(instant(t), u, v, ray);
+    return ray;
+}
+
 // Rays of the camera at their own time, turned into the surface's coordinates at that time. The sky does not spin with
 // it.
 void SurfaceImage::make_rays(const SampleBatch& samples, Chunk& chunk) const {
@@ -19,34 +46,25 @@ void SurfaceImage::make_rays(const SampleBatch& samples, Chunk& chunk) const {
     chunk.rays.resize(count);
     chunk.view.resize(spins ? count : 0);
     chunk.sun.resize(spins ? count : 1);
-    const glm::dmat3& resting = placement_.resting_orientation();
-    glm::dmat3 orientation = placement_.orientation(0.0);
-    glm::dvec3 sun = trace::Placement::direction_to_local(orientation, sun_direction_);
-    if (!spins) chunk.sun.front() = sun;
-    trace::Camera eye = camera_.turned(orientation);  // in the surface's axes
-    trace::Ray first;                                 // of its time
+    if (count == 0) return;
+    Instant now = instant(samples.t[0]);
+    glm::dvec3 sun = trace::Placement::direction_to_local(now.orientation, sun_direction_);
+    chunk.sun.front() = sun;
     for (std::size_t i = 0; i < count; ++i) {
-        const double t = samples.t[i];
-        if (i == 0 || t != samples.t[i - 1]) {  // of an instant there is one
-            const trace::Camera camera = path_.moves() ? trace::Camera(path_.at(t), scene_.film) : camera_;
-            if (spins) {
-                orientation = placement_.orientation(t);
-                sun = trace::Placement::direction_to_local(orientation, sun_direction_);
-            }
-            eye = camera.turned(orientation);
-            first = to_local(orientation, camera_ray(camera, samples.u[i], samples.v[i]), t);
+        if (i > 0 && samples.t[i] != samples.t[i - 1]) {  // of an instant there is one
+            set_time(now, samples.t[i]);
+            if (spins) sun = trace::Placement::direction_to_local(now.orientation, sun_direction_);
         }
-        const trace::CameraRay seen = eye.ray(samples.u[i], samples.v[i]);
         trace::Ray& ray = chunk.rays[i];
-        ray = first;
-        trace::Placement::aim(ray, seen.direction, scene_.sampling.tolerance * seen.pixel_angle);
+        aim(now, samples.u[i], samples.v[i], ray);
         if (!chunk.start.empty()) {
             ray.start = chunk.start[i];
             ray.hint = chunk.hint[i];
             ray.window = chunk.window[i];
         }
         if (!spins) continue;
-        chunk.view[i] = trace::Placement::direction_to_local(resting, orientation * seen.direction);
+        chunk.view[i] =
+            trace::Placement::direction_to_local(placement_.resting_orientation(), now.orientation * ray.direction);
         chunk.sun[i] = sun;
     }
 }

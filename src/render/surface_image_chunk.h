@@ -9,6 +9,14 @@
 
 namespace strata::render {
 
+// What the rays of one time share.
+struct SurfaceImage::Instant {
+    glm::dmat3 orientation;  // of the surface
+    trace::Ray world;        // some ray of the camera
+    trace::Camera eye;       // in the surface's axes
+    trace::Ray ray;          // in the surface's coordinates, all but its direction and tolerance
+};
+
 // A hit on its way to radiance.
 struct SurfaceImage::Lit {
     std::uint32_t sample = 0;

@@ -144,7 +144,34 @@ HWY_INLINE void take_beam(BeamPacket& packet, std::size_t lane, const Beam& beam
     ++packet.active_count;
 }
 
-// One step of every active lane; those that gained too little, or passed their limit, report and become idle.
+// All active lanes by their safe steps; those that gained too little, or passed their limit, report and become idle.
+HWY_INLINE void move_beams(BeamPacket& packet, const Wide& s, FloatVec safe, FloatVec least_gain, FloatVec slope,
+                           std::span<BeamEnd> ends, TraceCounters& counters) {
+    const FloatTag d;
+    const WordTag dw;
+    const auto active = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
+    const WordVec steps =
+        hn::Add(hn::Load(dw, packet.steps), hn::IfThenElseZero(hn::RebindMask(dw, active), hn::Set(dw, 1u)));
+    hn::Store(steps, dw, packet.steps);
+    counters.steps += hn::CountTrue(d, active);
+    const Wide clear = add(s, to_wide(safe));
+    store_wide(select(widen(active), clear, s), packet.s);
+    const auto misses = hn::And(active, narrow(greater_equal(clear, load_wide(packet.limit))));
+    const auto gains = hn::And(hn::Gt(safe, hn::Zero(d)), hn::Ge(safe, least_gain));
+    const auto is_last = hn::RebindMask(d, hn::Eq(steps, hn::Set(dw, kMostBeamSteps)));
+    const auto ends_here = hn::And(active, hn::Or(misses, hn::Or(hn::Not(gains), is_last)));
+    if (hn::AllFalse(d, ends_here)) return;
+    alignas(HWY_MAX_BYTES) float slopes[kMaxLanes];
+    hn::Store(slope, d, slopes);
+    const LaneSet missing(misses);
+    for (const std::size_t lane : LaneSet(ends_here)) {
+        ends[packet.beam[lane]] = {packet.s[lane], packet.hint[lane], slopes[lane], missing.contains(lane)};
+        packet.active[lane] = 0.0f;
+        --packet.active_count;
+    }
+}
+
+// One step of every active lane.
 template <SurfaceKind kKind, bool kDrifts, bool kLoose>
 HWY_INLINE void step_beams(const Field& field, const TracePlan& plan, BeamPacket& packet, std::span<BeamEnd> ends,
                            TraceCounters& counters) {
@@ -173,28 +200,7 @@ HWY_INLINE void step_beams(const Field& field, const TracePlan& plan, BeamPacket
     span.along = hn::Mul(span.ahead, speed);
     const FloatVec safe = hn::Max(first, solve_beam<kKind, kLoose>(plan, cache, at, span, noise_radius, &slope));
     hn::Store(hn::Min(hn::Max(safe, hn::Max(least_gain, hn::Set(d, 1e-30f))), hn::Set(d, 1e15f)), d, packet.hint);
-
-    const WordTag dw;
-    const auto active = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
-    const WordVec steps =
-        hn::Add(hn::Load(dw, packet.steps), hn::IfThenElseZero(hn::RebindMask(dw, active), hn::Set(dw, 1u)));
-    hn::Store(steps, dw, packet.steps);
-    counters.steps += hn::CountTrue(d, active);
-    const Wide clear = add(s, to_wide(safe));
-    store_wide(select(widen(active), clear, s), packet.s);
-    const auto misses = hn::And(active, narrow(greater_equal(clear, load_wide(packet.limit))));
-    const auto gains = hn::And(hn::Gt(safe, hn::Zero(d)), hn::Ge(safe, least_gain));
-    const auto is_last = hn::RebindMask(d, hn::Eq(steps, hn::Set(dw, kMostBeamSteps)));
-    const auto ends_here = hn::And(active, hn::Or(misses, hn::Or(hn::Not(gains), is_last)));
-    if (hn::AllFalse(d, ends_here)) return;
-    alignas(HWY_MAX_BYTES) float slopes[kMaxLanes];
-    hn::Store(slope, d, slopes);
-    const LaneSet missing(misses);
-    for (const std::size_t lane : LaneSet(ends_here)) {
-        ends[packet.beam[lane]] = {packet.s[lane], packet.hint[lane], slopes[lane], missing.contains(lane)};
-        packet.active[lane] = 0.0f;
-        --packet.active_count;
-    }
+    move_beams(packet, s, safe, least_gain, slope, ends, counters);
 }
 
 template <SurfaceKind kKind, bool kDrifts, bool kLoose>

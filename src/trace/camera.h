@@ -25,7 +25,7 @@ class Camera {
 
     const glm::dvec3& position() const { return position_; }
 
-    // Its rays in other axes: the columns of `axes`, of unit length and across each other.
+    // Itself in other axes from the same origin: the columns of `axes`, of unit length and across each other.
     Camera turned(const glm::dmat3& axes) const {
         Camera camera = *this;
         camera.position_ = position_ * axes;

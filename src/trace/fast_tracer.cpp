@@ -246,7 +246,7 @@ HWY_NOINLINE void trace_moving(const Field& field, const TracePlan& plan, std::s
     Packet packet;
     std::fill_n(packet.ray, lanes, kNoRay);
     for (std::size_t next = 0;;) {
-        if (next < rays.size() && packet.active_count + lanes / kIdleFraction <= lanes) {
+        if (next < rays.size() && packet.active_count + std::max<std::size_t>(1, lanes / kIdleFraction) <= lanes) {
             refill(field, plan, rays, hits, next, packet);
         }
         if (packet.active_count == 0) return;

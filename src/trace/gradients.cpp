@@ -61,6 +61,7 @@ HWY_INLINE void finish_block(const Field& field, const TracePlan& plan, Gradient
         gradient[block.point[i]] = {block.gradient[0][i], block.gradient[1][i], block.gradient[2][i]};
     }
     block.count = 0;
+    block.reach = 0.0;
     block.least = plan.octaves.size();
 }
 

@@ -21,8 +21,7 @@ class LaneSet {
     HWY_INLINE explicit LaneSet(hn::Mask<FloatTag> mask) {
         alignas(8) std::uint8_t bytes[8] = {};
         hn::StoreMaskBits(FloatTag(), mask, bytes);
-        // The scalar target fills its byte.
-        bits_ = std::bit_cast<std::uint64_t>(bytes) & (~std::uint64_t{0} >> (64 - hn::Lanes(FloatTag())));
+        bits_ = std::bit_cast<std::uint64_t>(bytes);
     }
 
     struct Iterator {

@@ -76,7 +76,7 @@ HWY_INLINE void take_ray(Packet& packet, std::size_t lane, const Ray& ray, std::
     packet.step_limit[lane] = ray.step_limit;
     packet.ray[lane] = index;
     packet.enters_bound[lane] = inside.enters_bound && inside.begin >= ray.start;
-    packet.windows.begin(lane, ray.window);
+    packet.windows.next[lane] = ray.window;
     change_window(packet.windows, lane, packet.s[lane], 0.0);
     ++packet.active_count;
 }

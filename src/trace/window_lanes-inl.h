@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace strata::trace::HWY_NAMESPACE {
 
-// Lanes without a window have all zeros, an exit at infinity, and read as such.
+// Lanes without a window read as one of all zeros, with an exit at infinity.
 struct WindowLanes {
     alignas(HWY_MAX_BYTES) double centre[3][kMaxLanes] = {};
     alignas(HWY_MAX_BYTES) double exit[kMaxLanes];  // the ray is in the ball up to here
@@ -34,11 +34,6 @@ struct WindowLanes {
     WindowLanes() { std::fill_n(exit, kMaxLanes, kNever); }
 
     bool holds(std::size_t lane) const { return error[lane] > 0.0f; }
-
-    void begin(std::size_t lane, const Window* first) {
-        change[lane] = first == nullptr ? kNever : 0.0;
-        next[lane] = first;
-    }
 
     void leave(std::size_t lane) {
         if (!holds(lane)) return;

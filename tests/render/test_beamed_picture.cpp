@@ -205,8 +205,7 @@ TEST_CASE("the distances in a beamed picture are first hits within the tolerance
         std::size_t hits = 0;
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const double t = samples.t[i];
-            const trace::Ray ray =
-                image.to_local(image.placement().orientation(t), image.camera_ray(samples.u[i], samples.v[i], t), t);
+            const trace::Ray ray = image.local_camera_ray(samples.u[i], samples.v[i], t);
             const oracle::FieldOracle field(oracle::shape_of(scene.surface, t));
             const Seen seen = seen_by(radiance[i]);
             hits += seen.hit;

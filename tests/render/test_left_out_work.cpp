@@ -145,8 +145,7 @@ TEST_CASE("without shadows the noise is evaluated for camera rays and the normal
             estimator.pixel_samples(pixels, set);
             std::vector<trace::Ray> rays;
             for (std::size_t i = 0; i < set.u.size(); ++i) {
-                rays.push_back(
-                    image.to_local(image.placement().orientation(0.0), image.camera_ray(set.u[i], set.v[i], 0.0), 0.0));
+                rays.push_back(image.local_camera_ray(set.u[i], set.v[i], 0.0));
             }
             std::vector<trace::Hit> hits(rays.size());
             trace::TraceCounters traced;

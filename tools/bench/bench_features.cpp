@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <ctime>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "shaders_cpu/terrain_material.h"
 #include "src/render/make_image.h"
 #include "src/render/render.h"
+#include "src/render/screen_beams.h"
 #include "src/scene/builtin.h"
 #include "src/scene/toml_reader.h"
 
@@ -79,7 +81,7 @@ scene::Scene plain(const char* name) {
     return scene;
 }
 
-// Camera ray, first hit, normal, colour: for a surface, a camera and a sun at rest, no shadows and no haze.
+// Beams, camera rays, first hits, normals, colours: for a surface, a camera and a sun at rest, no shadows and no haze.
 class BareImage final : public render::ImageFunction {
   public:
     explicit BareImage(const scene::Scene& scene)
@@ -88,57 +90,90 @@ class BareImage final : public render::ImageFunction {
           field_(scene.surface),
           fast_(field_),
           placement_(scene.surface),
-          camera_(scene.camera, scene.film) {}
+          path_(scene.camera),
+          camera_(scene.camera, scene.film),
+          eye_(camera_.turned(placement_.resting_orientation())),
+          beams_(scene_, path_, placement_, field_) {}
     BareImage(const BareImage&) = delete;
     BareImage& operator=(const BareImage&) = delete;
 
+    std::size_t batch_samples() const override { return 65536; }
+
     void evaluate(const render::SampleBatch& samples, std::span<glm::vec3> radiance,
                   render::Counters& counters) const override {
-        constexpr std::size_t kChunk = 1024;
-        for (std::size_t begin = 0; begin < samples.u.size(); begin += kChunk) {
-            const std::size_t count = std::min(kChunk, samples.u.size() - begin);
-            evaluate_chunk(samples.u.subspan(begin, count), samples.v.subspan(begin, count),
-                           radiance.subspan(begin, count), counters);
+        constexpr std::size_t kChunk = 4096;
+        thread_local Work work;
+        trace::TraceCounters traced;
+        beams_.trace(samples, work.beamed, traced);
+        const std::span<const render::BeamedCell> cells = work.beamed.cells;
+        for (std::size_t begin = 0, end; begin < cells.size(); begin = end) {
+            for (end = begin + 1; end < cells.size() && cells[end].last - cells[begin].first <= kChunk;) ++end;
+            evaluate_cells(samples, cells.subspan(begin, end - begin), radiance, work, traced);
+            counters.hits += work.x.size();
         }
+        counters.noise_evaluations += traced.noise_evaluations;
     }
 
   private:
-    void evaluate_chunk(std::span<const double> u, std::span<const double> v, std::span<glm::vec3> radiance,
-                        render::Counters& counters) const {
-        const glm::dmat3 orientation = placement_.resting_orientation();
-        const glm::dvec3 sun = trace::Placement::direction_to_local(orientation, glm::normalize(scene_.sun.direction));
-        std::vector<trace::Ray> rays(u.size());
-        for (std::size_t i = 0; i < u.size(); ++i) {
-            const trace::CameraRay seen = camera_.ray(u[i], v[i]);
-            rays[i] = placement_.to_local(orientation, {.origin = camera_.position(),
-                                                        .direction = seen.direction,
-                                                        .noise_shift = {},
-                                                        .limit = scene_.camera.far,
-                                                        .delta0 = 0.0,
-                                                        .delta_slope = scene_.sampling.tolerance * seen.pixel_angle});
-        }
-        std::vector<trace::Hit> hits(u.size());
-        trace::TraceCounters traced;
-        fast_.trace(rays, hits, traced);
+    struct Work {
+        render::BeamedSamples beamed;
+        render::WindowChains windows;
+        std::vector<trace::Ray> rays;
+        std::vector<trace::Hit> hits, surface_hits;
         std::vector<glm::dvec3> x;
         std::vector<std::size_t> owner;
-        for (std::size_t i = 0; i < u.size(); ++i) {
-            if (hits[i].state == trace::HitState::miss) {
-                radiance[i] = shaders::sky_radiance(scene_.sky, rays[i].direction);
-            } else {
-                x.push_back(rays[i].origin + hits[i].s * rays[i].direction);
-                owner.push_back(i);
+        std::vector<glm::vec3> gradient;
+    };
+
+    void make_rays(const render::SampleBatch& samples, std::span<const render::BeamedCell> cells, Work& work) const {
+        const trace::Ray first =
+            placement_.to_local(placement_.resting_orientation(), {.origin = camera_.position(),
+                                                                   .direction = camera_.ray(0.0, 0.0).direction,
+                                                                   .noise_shift = {},
+                                                                   .limit = scene_.camera.far});
+        work.rays.clear();
+        for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+            for (std::size_t i = cells[cell].first; i < cells[cell].last; ++i) {
+                const std::size_t sample = work.beamed.samples.order[i];
+                const trace::CameraRay seen = eye_.ray(samples.u[sample], samples.v[sample]);
+                trace::Ray& ray = work.rays.emplace_back(first);
+                trace::Placement::aim(ray, seen.direction, scene_.sampling.tolerance * seen.pixel_angle);
+                ray.start = cells[cell].misses ? std::numeric_limits<double>::infinity() : cells[cell].start;
+                ray.hint = cells[cell].hint;
+                ray.window = work.windows.first(cell);
             }
         }
-        std::vector<glm::vec3> gradient(x.size());
-        fast_.gradients(x, gradient, traced);
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            const glm::dvec3 normal(glm::normalize(gradient[i]));
-            radiance[owner[i]] =
-                shader_.radiance({.height = x[i].y, .up_dot_normal = normal.y, .n_dot_sun = glm::dot(normal, sun)});
+    }
+
+    void evaluate_cells(const render::SampleBatch& samples, std::span<const render::BeamedCell> cells,
+                        std::span<glm::vec3> radiance, Work& work, trace::TraceCounters& traced) const {
+        beams_.open_windows(work.beamed, cells, work.windows, traced);
+        make_rays(samples, cells, work);
+        work.hits.resize(work.rays.size());
+        fast_.trace(work.rays, work.hits, traced);
+        work.surface_hits.clear();
+        work.x.clear();
+        work.owner.clear();
+        for (std::size_t i = 0; i < work.rays.size(); ++i) {
+            const trace::Ray& ray = work.rays[i];
+            const std::size_t sample = work.beamed.samples.order[cells.front().first + i];
+            if (work.hits[i].state == trace::HitState::miss) {
+                radiance[sample] = shaders::sky_radiance(scene_.sky, ray.direction);
+            } else {
+                work.x.push_back(ray.origin + work.hits[i].s * ray.direction);
+                work.surface_hits.push_back(work.hits[i]);
+                work.owner.push_back(sample);
+            }
         }
-        counters.hits += x.size();
-        counters.noise_evaluations += traced.noise_evaluations;
+        work.gradient.resize(work.x.size());
+        fast_.gradients(work.surface_hits, work.x, {}, work.gradient, traced);
+        const glm::dvec3 sun = trace::Placement::direction_to_local(placement_.resting_orientation(),
+                                                                    glm::normalize(scene_.sun.direction));
+        for (std::size_t i = 0; i < work.x.size(); ++i) {
+            const glm::dvec3 normal(glm::normalize(work.gradient[i]));
+            radiance[work.owner[i]] = shader_.radiance(
+                {.height = work.x[i].y, .up_dot_normal = normal.y, .n_dot_sun = glm::dot(normal, sun)});
+        }
     }
 
     scene::Scene scene_;
@@ -146,7 +181,9 @@ class BareImage final : public render::ImageFunction {
     trace::Field field_;
     trace::FastTracer fast_;
     trace::Placement placement_;
-    trace::Camera camera_;
+    scene::CameraPath path_;
+    trace::Camera camera_, eye_;  // eye_ in the surface's axes
+    render::ScreenBeams beams_;
 };
 
 struct Side {

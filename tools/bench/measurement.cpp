@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
-#include <utility>
 
 #include "src/render/make_image.h"
 #include "src/render/render.h"
@@ -64,6 +64,7 @@ bool CaseRound::measure_piece(const render::CancelToken& cancel, const render::P
 
 void CaseRound::add_to(Measurement& measurement) const {
     const State& round = *state_;
+    assert(round.next == pieces());
     if (!measurement.cpu_s.empty() && !same_work(round.counters, measurement.counters)) {
         throw std::runtime_error(
             fmt::format("{}: two rounds of the same render did different work", measurement.what.id()));

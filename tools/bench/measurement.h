@@ -35,8 +35,10 @@ struct Measurement {
 // their times then owe little to what else the machine is doing.
 class CaseRound {
   public:
-    // The image function is made anew: nothing that it may remember makes a later round cheaper.
+    // The image function is made anew: nothing that it may remember makes a later round cheaper. `what` must outlive
+    // the round.
     explicit CaseRound(const Case& what);
+    explicit CaseRound(Case&&) = delete;
     ~CaseRound();
     CaseRound(CaseRound&&) noexcept;
 
@@ -45,8 +47,8 @@ class CaseRound {
     // Each once, in order. False, and the round is void, if cancelled.
     bool measure_piece(const render::CancelToken& cancel, const render::ProgressCallback& on_progress);
 
-    // Adds the whole round to the case's. Throws std::runtime_error if its counts are not those of the rounds before:
-    // equal renders do equal work.
+    // Adds the round, all of whose pieces are measured, to the case's. Throws std::runtime_error if its counts are not
+    // those of the rounds before: equal renders do equal work.
     void add_to(Measurement& measurement) const;
 
   private:

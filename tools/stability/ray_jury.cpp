@@ -28,9 +28,8 @@ double RayJury::time() const { return render::estimator_settings(scene_).shutter
 
 trace::Ray RayJury::local(const WorldRay& ray) const {
     const double t = time();
-    const trace::Ray world = ray.pixel ? image_.camera_ray(ray.pixel->x + 0.5, ray.pixel->y + 0.5, t)
-                                       : image_.world_ray(ray.origin, ray.direction, t);
-    return image_.to_local(image_.placement().orientation(t), world, t);
+    if (ray.pixel) return image_.local_camera_ray(ray.pixel->x + 0.5, ray.pixel->y + 0.5, t);
+    return image_.to_local(image_.placement().orientation(t), image_.world_ray(ray.origin, ray.direction, t), t);
 }
 
 std::vector<trace::Hit> RayJury::trace(std::span<const trace::Ray> rays) const {
