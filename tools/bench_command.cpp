@@ -85,7 +85,7 @@ int bench_command(const BenchRequest& request) {
     if (!request.no_files) folder = prepare_folder(request);
 
     render::ProgressPrinter progress(request.quiet);
-    const bench::Results results = bench::run(plan, rounds, progress, cancel);
+    const bench::Results results = bench::run(plan, rounds, progress.callback(), cancel);
     progress.clear();
     const bool interrupted = cancel.requested();
     const std::vector<bench::Figure> figures = bench::figures_of(results);

@@ -10,6 +10,7 @@
 #include "tools/bench/figures.h"
 #include "tools/bench/peers.h"
 #include "tools/bench/report.h"
+#include "tools/bench/run.h"
 #include "tools/bench/subset.h"
 #include "tools/bench/variants.h"
 #include "tools/errors.h"
@@ -326,13 +327,25 @@ TEST_CASE("every round of a case does the same work, whatever the time") {
     CHECK_THROWS_AS(measure_round(m, cancel), std::runtime_error);
 }
 
-TEST_CASE("a cancelled round leaves a measurement as it was") {
-    Measurement m{.what = {"hyperterrain", hyperterrain().scene, blocks_of(960, 540, 16, 1, 1)}};
-    render::CancelToken cancel;
-    cancel.request();
-    CHECK_FALSE(measure_round(m, cancel));
-    CHECK(m.cpu_s.empty());
-    CHECK(find({m}, m.what.id()) == nullptr);
+TEST_CASE("a run that is cancelled in its second round keeps the first, of every case, and nothing of the second") {
+    Case small{"hyperterrain", hyperterrain().scene, blocks_of(64, 36, 16, 2, 1)};
+    small.scene.film.width = 64;
+    small.scene.film.height = 36;
+    small.scene.sampling.N = 2;
+    Case other = small;
+    other.scene_name = "another";
+    Plan plan;
+    plan.cases = {small, other};
+    for (const int rounds_done : {0, 1, 2}) {
+        render::CancelToken cancel;
+        const auto show = [&](const render::Progress& progress) {
+            if (progress.fraction > 0.5 * rounds_done + 0.1) cancel.request();
+        };
+        const Results results = run(plan, 2, show, cancel);
+        CHECK(results.rounds == rounds_done);
+        CHECK(results.measurements.size() == (rounds_done > 0 ? 2 : 0));
+        for (const Measurement& m : results.measurements) CHECK(std::ssize(m.cpu_s) == rounds_done);
+    }
 }
 
 TEST_CASE("POV-Ray's statistics are read, and what is no statistics is refused") {

@@ -37,7 +37,8 @@ bool measure_round(std::vector<Measurement>& measurements, BatchProgress& progre
 
 }  // namespace
 
-Results run(const Plan& plan, int rounds, render::ProgressPrinter& progress, const render::CancelToken& cancel) {
+Results run(const Plan& plan, int rounds, const render::ProgressCallback& on_progress,
+            const render::CancelToken& cancel) {
     Results results{.plan = plan};
     double total = 0;
     for (const Case& what : plan.cases) {
@@ -46,7 +47,7 @@ Results run(const Plan& plan, int rounds, render::ProgressPrinter& progress, con
     }
     std::unique_ptr<Peers> peers;
     if (plan.has(Section::peers)) peers = std::make_unique<Peers>(plan);
-    BatchProgress batch(total, progress.callback());
+    BatchProgress batch(total, on_progress);
     std::vector<Measurement> whole_rounds = results.measurements;
     for (int round = 0; round < rounds && !cancel.requested(); ++round) {
         bool finished = measure_round(results.measurements, batch, cancel);
