@@ -79,8 +79,8 @@ class SurfaceImage final : public ImageFunction {
                    std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient,
                    trace::TraceCounters& counters) const;
     Instant instant(double t) const;
-    void set_time(Instant& instant, double t) const;
-    void aim(const Instant& instant, double u, double v, trace::Ray& ray) const;
+    void set_time(Instant& now, double t) const;
+    void aim(const Instant& now, double u, double v, trace::Ray& ray) const;
     void make_rays(const SampleBatch& samples, Chunk& chunk) const;
     void gather_hits(std::span<glm::vec3> radiance, Chunk& chunk, Counters& counters) const;
     double shadow_spacing(const Chunk& chunk, std::size_t i) const;
