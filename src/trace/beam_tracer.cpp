@@ -57,18 +57,18 @@ struct BeamPoint {
 };
 
 // The octaves that the bounds rest on are left in `cache`.
-template <SurfaceKind kKind, bool kDrifts>
+template <bool kPlanar>
 HWY_INLINE FloatVec evaluate_beam(const TracePlan& plan, const Field& field, const BeamPacket& packet,
                                   const WidePoint& x, const WidePoint& direction, FloatVec radius, BeamCache& cache,
                                   TraceCounters& counters) {
     const FloatTag d;
     const FloatPoint axis = to_float(direction);
-    const Base base = base_at<kKind>(field, x, direction);
+    const Base base = base_at<kPlanar>(field, x, direction);
     const FloatVec error =
         hn::MulAdd(hn::Abs(base.value), hn::Set(d, plan.error_relative), hn::Set(d, plan.error_absolute));
     const FloatVec reach = hn::MulAdd(hn::Load(d, packet.hint), hn::Load(d, packet.speed), radius);
     WidePoint noise_x = x;
-    if constexpr (kDrifts) noise_x = add(x, load_point(packet.noise_shift));
+    if (field.drifts()) noise_x = add(x, load_point(packet.noise_shift));
     FloatVec f = base.value, unseen = hn::Zero(d);
     auto open = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
     cache.count = 0;
@@ -79,9 +79,9 @@ HWY_INLINE FloatVec evaluate_beam(const TracePlan& plan, const Field& field, con
         unseen = hn::IfThenElse(hn::AndNot(wanted, open), rest, unseen);
         open = wanted;
         if (hn::AllFalse(d, open)) break;
-        const OctaveSample n = sample_octave<kIsPlanar<kKind>>(octave, noise_x, packet.reach);
+        const OctaveSample n = sample_octave<kPlanar>(octave, noise_x, packet.reach);
         FloatVec slope = hn::MulAdd(n.dx, axis.x, hn::Mul(n.dz, axis.z));
-        if constexpr (!kIsPlanar<kKind>) slope = hn::MulAdd(n.dy, axis.y, slope);
+        if constexpr (!kPlanar) slope = hn::MulAdd(n.dy, axis.y, slope);
         f = hn::NegMulAdd(hn::IfThenElseZero(open, hn::Set(d, octave.amplitude)), n.value, f);
         cache.sample[cache.count] = n;
         cache.slope[cache.count] = slope;
@@ -94,14 +94,14 @@ HWY_INLINE FloatVec evaluate_beam(const TracePlan& plan, const Field& field, con
 
 // The longest step that is certified to keep the whole beam outside the surface, by bounds chosen for span.ahead.
 // noise_radius: how much of span.radius is the drifting noise's own; kLoose: it is not 0.
-template <SurfaceKind kKind, bool kLoose>
+template <bool kPlanar, bool kLoose>
 HWY_INLINE FloatVec solve_beam(const TracePlan& plan, const BeamCache& cache, const BeamPoint& at, const BeamSpan& span,
                                FloatVec noise_radius, FloatVec* slope) {
     const FloatTag d;
     BeamBounds bounds = no_beam_bounds();
     for (std::size_t k = 0; k < cache.count; ++k) {
-        bounds = add_octave_beam<kIsPlanar<kKind>, kLoose>(bounds, plan, plan.octaves[k], cache.sample[k],
-                                                           cache.slope[k], span, hn::Gt(cache.used[k], hn::Zero(d)));
+        bounds = add_octave_beam<kPlanar, kLoose>(bounds, plan, plan.octaves[k], cache.sample[k], cache.slope[k], span,
+                                                  hn::Gt(cache.used[k], hn::Zero(d)));
     }
     // The gradient across the axis, componentwise so that nothing cancels. Drift also leads along the axis.
     const FloatPoint gradient = {hn::Sub(at.base_gradient.x, bounds.gradient.x),
@@ -172,7 +172,7 @@ HWY_INLINE void move_beams(BeamPacket& packet, const Wide& s, FloatVec safe, Flo
 }
 
 // One step of every active lane.
-template <SurfaceKind kKind, bool kDrifts, bool kLoose>
+template <bool kPlanar, bool kLoose>
 HWY_INLINE void step_beams(const Field& field, const TracePlan& plan, BeamPacket& packet, std::span<BeamEnd> ends,
                            TraceCounters& counters) {
     const FloatTag d;
@@ -188,22 +188,22 @@ HWY_INLINE void step_beams(const Field& field, const TracePlan& plan, BeamPacket
 
     BeamCache cache;
     const std::uint64_t evaluated = counters.noise_evaluations;
-    const FloatVec certain = evaluate_beam<kKind, kDrifts>(plan, field, packet, x, direction, radius, cache, counters);
+    const FloatVec certain = evaluate_beam<kPlanar>(plan, field, packet, x, direction, radius, cache, counters);
     counters.left_out.too_fine += packet.active_count * plan.octaves.size() - (counters.noise_evaluations - evaluated);
-    const BeamPoint at{to_float(direction), base_gradient_at<kKind>(x), certain};
+    const BeamPoint at{to_float(direction), base_gradient_at<kPlanar>(field, x), certain};
     BeamSpan span{hint, hn::Mul(hint, speed), radius, hn::Mul(to_float(spread), up)};
     FloatVec slope;
-    const FloatVec first = solve_beam<kKind, kLoose>(plan, cache, at, span, noise_radius, &slope);
+    const FloatVec first = solve_beam<kPlanar, kLoose>(plan, cache, at, span, noise_radius, &slope);
     const FloatVec inverse_lipschitz = hn::Set(d, plan.inverse_lipschitz);
     const FloatVec least = hn::Sub(hn::Mul(certain, inverse_lipschitz), radius);
     span.ahead = hn::Min(hn::Max(hn::Max(first, least_gain), least), hn::Set(d, 1e15f));
     span.along = hn::Mul(span.ahead, speed);
-    const FloatVec safe = hn::Max(first, solve_beam<kKind, kLoose>(plan, cache, at, span, noise_radius, &slope));
+    const FloatVec safe = hn::Max(first, solve_beam<kPlanar, kLoose>(plan, cache, at, span, noise_radius, &slope));
     hn::Store(hn::Min(hn::Max(safe, hn::Max(least_gain, hn::Set(d, 1e-30f))), hn::Set(d, 1e15f)), d, packet.hint);
     move_beams(packet, s, safe, least_gain, slope, ends, counters);
 }
 
-template <SurfaceKind kKind, bool kDrifts, bool kLoose>
+template <bool kPlanar, bool kLoose>
 HWY_NOINLINE void trace_beams_of(const Field& field, const TracePlan& plan, std::span<const Beam> beams,
                                  std::span<BeamEnd> ends, TraceCounters& counters) {
     const std::size_t lanes = hn::Lanes(FloatTag());
@@ -221,36 +221,28 @@ HWY_NOINLINE void trace_beams_of(const Field& field, const TracePlan& plan, std:
             }
         }
         if (packet.active_count == 0) return;
-        step_beams<kKind, kDrifts, kLoose>(field, plan, packet, ends, counters);
+        step_beams<kPlanar, kLoose>(field, plan, packet, ends, counters);
     }
 }
 
-template <SurfaceKind kKind>
-void trace_beams_kind(const Field& field, const TracePlan& plan, std::span<const Beam> beams, std::span<BeamEnd> ends,
+template <bool kPlanar>
+void trace_beams_over(const Field& field, const TracePlan& plan, std::span<const Beam> beams, std::span<BeamEnd> ends,
                       TraceCounters& counters) {
-    if (!field.drifts()) return trace_beams_of<kKind, false, false>(field, plan, beams, ends, counters);
+    if (!field.drifts()) return trace_beams_of<kPlanar, false>(field, plan, beams, ends, counters);
     // Beams of an instant and of a time are not mixed, so that a beam's end is its own.
     const auto has_time = [](const Beam& beam) { return beam.noise_radius > 0.0; };
     const auto middle = std::ranges::find_if_not(beams, has_time);
-    if (middle == beams.end()) return trace_beams_of<kKind, true, true>(field, plan, beams, ends, counters);
+    if (middle == beams.end()) return trace_beams_of<kPlanar, true>(field, plan, beams, ends, counters);
     if (std::ranges::none_of(beams, has_time))
-        return trace_beams_of<kKind, true, false>(field, plan, beams, ends, counters);
+        return trace_beams_of<kPlanar, false>(field, plan, beams, ends, counters);
     for (std::size_t i = 0; i < beams.size(); ++i)
-        trace_beams_kind<kKind>(field, plan, beams.subspan(i, 1), ends.subspan(i, 1), counters);
+        trace_beams_over<kPlanar>(field, plan, beams.subspan(i, 1), ends.subspan(i, 1), counters);
 }
 
 void TraceBeams(const Field& field, const TracePlan& plan, std::span<const Beam> beams, std::span<BeamEnd> ends,
                 TraceCounters& counters) {
-    switch (field.kind()) {
-        case SurfaceKind::terrain:
-            return trace_beams_kind<SurfaceKind::terrain>(field, plan, beams, ends, counters);
-        case SurfaceKind::hyperterrain:
-            return trace_beams_kind<SurfaceKind::hyperterrain>(field, plan, beams, ends, counters);
-        case SurfaceKind::planet:
-            return trace_beams_kind<SurfaceKind::planet>(field, plan, beams, ends, counters);
-        case SurfaceKind::isosurface:
-            return trace_beams_kind<SurfaceKind::isosurface>(field, plan, beams, ends, counters);
-    }
+    if (field.is_planar_noise()) return trace_beams_over<true>(field, plan, beams, ends, counters);
+    trace_beams_over<false>(field, plan, beams, ends, counters);
 }
 
 }  // namespace strata::trace::HWY_NAMESPACE

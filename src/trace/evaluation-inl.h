@@ -49,16 +49,16 @@ HWY_INLINE OctaveBounds window_bounds(const Evaluation& at, FloatVec step) {
 }
 
 // The base and the windows' part of f.
-template <SurfaceKind kKind, bool kWindows>
+template <bool kPlanar, bool kWindows>
 HWY_INLINE Evaluation without_octaves(const TracePlan& plan, const Field& field, const Packet& packet,
                                       const WidePoint& x, const WidePoint& noise_x, const WidePoint& direction) {
     const FloatTag d;
-    const Base base = base_at<kKind>(field, x, direction);
+    const Base base = base_at<kPlanar>(field, x, direction);
     Evaluation at;
     at.f = base.value;
     at.error = hn::MulAdd(hn::Abs(base.value), hn::Set(d, plan.error_relative), hn::Set(d, plan.error_absolute));
     at.slope = at.base_slope = base.slope;
-    at.gradient = base_gradient_at<kKind>(x);
+    at.gradient = base_gradient_at<kPlanar>(field, x);
     at.rest = at.bend = hn::Zero(d);
     at.windowed = hn::Lt(at.bend, at.bend);  // none
     at.octaves = hn::Zero(WordTag());
@@ -77,15 +77,15 @@ HWY_INLINE Evaluation without_octaves(const TracePlan& plan, const Field& field,
 }
 
 // x is where the ray is; the noise is evaluated elsewhere when it drifts.
-template <SurfaceKind kKind, bool kDrifts, bool kWindows>
+template <bool kPlanar, bool kWindows>
 HWY_INLINE Evaluation evaluate(const TracePlan& plan, const Field& field, const Packet& packet, const WidePoint& x,
                                const WidePoint& direction, OctaveCache& cache, TraceCounters& counters) {
     const FloatTag d;
     const WordTag dw;
     const FloatPoint along = to_float(direction);
     WidePoint noise_x = x;
-    if constexpr (kDrifts) noise_x = add(x, load_point(packet.noise_shift));
-    Evaluation at = without_octaves<kKind, kWindows>(plan, field, packet, x, noise_x, direction);
+    if (field.drifts()) noise_x = add(x, load_point(packet.noise_shift));
+    Evaluation at = without_octaves<kPlanar, kWindows>(plan, field, packet, x, noise_x, direction);
     const FloatVec hint = hn::Min(hn::Load(d, packet.hint), at.room), span = hn::Mul(hint, hn::Load(d, packet.speed));
     at.bounds = window_bounds<kWindows>(at, hint);
     auto open = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
@@ -104,15 +104,15 @@ HWY_INLINE Evaluation evaluate(const TracePlan& plan, const Field& field, const 
         at.rest = hn::IfThenElse(hn::AndNot(wanted, open), rest, at.rest);
         open = wanted;
         if (hn::AllFalse(d, open)) break;
-        const OctaveSample n = sample_octave<kIsPlanar<kKind>>(octave, noise_x, packet.reach);
+        const OctaveSample n = sample_octave<kPlanar>(octave, noise_x, packet.reach);
         FloatVec slope = hn::MulAdd(n.dx, along.x, hn::Mul(n.dz, along.z));
-        if constexpr (!kIsPlanar<kKind>) slope = hn::MulAdd(n.dy, along.y, slope);
+        if constexpr (!kPlanar) slope = hn::MulAdd(n.dy, along.y, slope);
         const FloatVec amplitude = hn::IfThenElseZero(open, hn::Set(d, octave.amplitude));
         at.f = hn::NegMulAdd(amplitude, n.value, at.f);
         const FloatVec pull = hn::Mul(amplitude, wave);
         at.slope = hn::NegMulAdd(pull, slope, at.slope);
         at.gradient.x = hn::NegMulAdd(pull, n.dx, at.gradient.x);
-        if constexpr (!kIsPlanar<kKind>) at.gradient.y = hn::NegMulAdd(pull, n.dy, at.gradient.y);
+        if constexpr (!kPlanar) at.gradient.y = hn::NegMulAdd(pull, n.dy, at.gradient.y);
         at.gradient.z = hn::NegMulAdd(pull, n.dz, at.gradient.z);
         at.bounds = add_octave(at.bounds, plan, octave, n.value, slope, hn::Mul(wave, hint), ws, open);
         at.octaves = hn::Add(at.octaves, hn::IfThenElseZero(hn::RebindMask(dw, open), hn::Set(dw, 1u)));

@@ -76,7 +76,7 @@ struct Outcome {
 };
 
 // Evaluates every active lane's point. The step that it allows is the next hint.
-template <SurfaceKind kKind, bool kDrifts, bool kWindows>
+template <bool kPlanar, bool kWindows>
 HWY_INLINE Outcome find_out(const Field& field, const TracePlan& plan, Packet& packet, TraceCounters& counters) {
     const FloatTag d;
     const WordTag dw;
@@ -85,7 +85,7 @@ HWY_INLINE Outcome find_out(const Field& field, const TracePlan& plan, Packet& p
     const WidePoint x = point_at(load_point(packet.origin), direction, s);
     OctaveCache cache;
     const std::uint64_t evaluated = counters.noise_evaluations;
-    Evaluation at = evaluate<kKind, kDrifts, kWindows>(plan, field, packet, x, direction, cache, counters);
+    Evaluation at = evaluate<kPlanar, kWindows>(plan, field, packet, x, direction, cache, counters);
     // Without those that end_ray moves to `settled`.
     counters.left_out.too_fine += packet.active_count * plan.octaves.size() - (counters.noise_evaluations - evaluated);
     if constexpr (kWindows) {
@@ -188,12 +188,12 @@ HWY_INLINE void go_on(Packet& packet, hn::Mask<FloatTag> lanes, const Outcome& f
 }
 
 // One step of every active lane; lanes that finish report and become idle.
-template <SurfaceKind kKind, bool kDrifts, bool kWindows>
+template <bool kPlanar, bool kWindows>
 HWY_INLINE void step(const Field& field, const TracePlan& plan, Packet& packet, std::span<Hit> hits,
                      TraceCounters& counters) {
     const FloatTag d;
     const WordTag dw;
-    const Outcome found = find_out<kKind, kDrifts, kWindows>(field, plan, packet, counters);
+    const Outcome found = find_out<kPlanar, kWindows>(field, plan, packet, counters);
     auto steps = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
     if constexpr (kWindows) {
         const auto unsettled = hn::And(steps, hn::And(found.is_covered, found.is_unsettled));
@@ -239,9 +239,9 @@ HWY_INLINE void refill(const Field& field, const TracePlan& plan, std::span<cons
     }
 }
 
-template <SurfaceKind kKind, bool kDrifts, bool kWindows>
-HWY_NOINLINE void trace_moving(const Field& field, const TracePlan& plan, std::span<const Ray> rays,
-                               std::span<Hit> hits, TraceCounters& counters) {
+template <bool kPlanar, bool kWindows>
+HWY_NOINLINE void trace_rays(const Field& field, const TracePlan& plan, std::span<const Ray> rays, std::span<Hit> hits,
+                             TraceCounters& counters) {
     const std::size_t lanes = hn::Lanes(FloatTag());
     Packet packet;
     std::fill_n(packet.ray, lanes, kNoRay);
@@ -250,37 +250,22 @@ HWY_NOINLINE void trace_moving(const Field& field, const TracePlan& plan, std::s
             refill(field, plan, rays, hits, next, packet);
         }
         if (packet.active_count == 0) return;
-        step<kKind, kDrifts, kWindows>(field, plan, packet, hits, counters);
+        step<kPlanar, kWindows>(field, plan, packet, hits, counters);
     }
 }
 
-template <SurfaceKind kKind, bool kWindows>
-void trace_windowed(const Field& field, const TracePlan& plan, std::span<const Ray> rays, std::span<Hit> hits,
-                    TraceCounters& counters) {
-    if (field.drifts()) return trace_moving<kKind, true, kWindows>(field, plan, rays, hits, counters);
-    trace_moving<kKind, false, kWindows>(field, plan, rays, hits, counters);
-}
-
-template <SurfaceKind kKind>
-void trace_kind(const Field& field, const TracePlan& plan, std::span<const Ray> rays, std::span<Hit> hits,
+template <bool kPlanar>
+void trace_over(const Field& field, const TracePlan& plan, std::span<const Ray> rays, std::span<Hit> hits,
                 TraceCounters& counters) {
     const bool has_windows = std::ranges::any_of(rays, [](const Ray& ray) { return ray.window != nullptr; });
-    if (has_windows) return trace_windowed<kKind, true>(field, plan, rays, hits, counters);
-    trace_windowed<kKind, false>(field, plan, rays, hits, counters);
+    if (has_windows) return trace_rays<kPlanar, true>(field, plan, rays, hits, counters);
+    trace_rays<kPlanar, false>(field, plan, rays, hits, counters);
 }
 
 void Trace(const Field& field, const TracePlan& plan, std::span<const Ray> rays, std::span<Hit> hits,
            TraceCounters& counters) {
-    switch (field.kind()) {
-        case SurfaceKind::terrain:
-            return trace_kind<SurfaceKind::terrain>(field, plan, rays, hits, counters);
-        case SurfaceKind::hyperterrain:
-            return trace_kind<SurfaceKind::hyperterrain>(field, plan, rays, hits, counters);
-        case SurfaceKind::planet:
-            return trace_kind<SurfaceKind::planet>(field, plan, rays, hits, counters);
-        case SurfaceKind::isosurface:
-            return trace_kind<SurfaceKind::isosurface>(field, plan, rays, hits, counters);
-    }
+    if (field.is_planar_noise()) return trace_over<true>(field, plan, rays, hits, counters);
+    trace_over<false>(field, plan, rays, hits, counters);
 }
 
 }  // namespace strata::trace::HWY_NAMESPACE
