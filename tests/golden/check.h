@@ -1,0 +1,23 @@
+// Golden scenes held against their pins, and pins made anew.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace strata::golden {
+
+struct Folders {
+    std::filesystem::path pins;  // TARGET.toml, and pictures/SCENE.txt
+    std::filesystem::path left;  // where pictures of what differs are left: TARGET/SCENE/
+};
+
+enum class Verdict { same, differs, differs_elsewhere };
+
+// Prints what differs on the SIMD target in use. differs_elsewhere: something does, but the pins were made by another
+// compiler or maths library, which explains it.
+Verdict check(const std::string& target, const Folders& folders);
+
+// Prints what differs, then replaces the target's pins, and its pictures if they are the expected ones.
+void pin(const std::string& target, const Folders& folders);
+
+}  // namespace strata::golden

@@ -1,0 +1,79 @@
+#include "tests/golden/measure.h"
+
+#include <algorithm>
+#include <span>
+
+#include "src/render/progressive.h"
+#include "src/render/render.h"
+#include "tests/golden/digest.h"
+
+namespace strata::golden {
+
+namespace {
+
+render::RenderResult render_golden(const GoldenScene& golden, const scene::Scene& scene, const Cut& cut) {
+    const auto image = render::make_image(scene, golden.tracer);
+    const render::EstimatorSettings settings = render::estimator_settings(scene);
+    const render::Window frame{0, 0, scene.film.width, scene.film.height};
+    const render::Window window = golden.crop.value_or(frame);
+    render::RenderOptions options;
+    options.threads = cut.threads;
+    options.tile = cut.tile;
+    options.with_costs = golden.with_costs;
+    if (golden.passes == 1) return render::render(*image, render::Estimator(settings), window, options);
+    return render::render_progressively(*image, settings, window, {.passes = golden.passes}, options).render;
+}
+
+image::Picture picture_of(const render::Film& film, const scene::Film& frame) {
+    const render::Window& w = film.window();
+    image::Picture picture{frame.width, frame.height, w.x0, w.y0, w.x1, w.y1, {}};
+    for (const glm::vec3& pixel : film.pixels()) picture.rgb.insert(picture.rgb.end(), {pixel.r, pixel.g, pixel.b});
+    return picture;
+}
+
+std::string digest_of_costs(const render::Film& film, glm::length_t which) {
+    std::vector<float> values;
+    for (const glm::vec2& cost : film.costs()) values.push_back(cost[which]);
+    return digest_text(std::span<const float>(values));
+}
+
+Record record_of(const render::RenderResult& result, const image::Picture& picture) {
+    Record record;
+    record.digests.emplace_back("pixels", digest_text(std::span<const float>(picture.rgb)));
+    if (!result.film.costs().empty()) {
+        record.digests.emplace_back("steps_aov", digest_of_costs(result.film, 0));
+        record.digests.emplace_back("evals_aov", digest_of_costs(result.film, 1));
+    }
+    const render::Counters& c = result.counters;
+    record.counts = {{"total.rays", c.rays},
+                     {"total.hits", c.hits},
+                     {"total.shadow_rays", c.shadow_rays},
+                     {"total.unresolved_rays", c.unresolved_rays},
+                     {"total.evaluations", c.noise_evaluations},
+                     {"total.steps", c.steps},
+                     {"total.executed_lanes", c.executed_lanes}};
+    for (std::size_t i = 0; i < render::kPhases; ++i) {
+        const render::PhaseCost& cost = c.phases[i];
+        std::string phase = render::name_of(static_cast<render::Phase>(i));
+        std::replace(phase.begin(), phase.end(), ' ', '_');
+        record.counts.insert(record.counts.end(), {{phase + ".evaluations", cost.noise_evaluations},
+                                                   {phase + ".steps", cost.steps},
+                                                   {phase + ".too_fine", cost.left_out.too_fine},
+                                                   {phase + ".settled", cost.left_out.settled},
+                                                   {phase + ".in_window", cost.left_out.in_window}});
+    }
+    return record;
+}
+
+}  // namespace
+
+Measurement measure(const GoldenScene& golden, const Cut& cut) {
+    const scene::Scene scene = scene_of(golden);
+    const render::RenderResult result = render_golden(golden, scene, cut);
+    Measurement measurement;
+    measurement.picture = picture_of(result.film, scene.film);
+    measurement.record = record_of(result, measurement.picture);
+    return measurement;
+}
+
+}  // namespace strata::golden

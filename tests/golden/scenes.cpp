@@ -1,0 +1,177 @@
+#include "tests/golden/scenes.h"
+
+#include <initializer_list>
+
+#include "src/scene/override.h"
+#include "src/scene/validate.h"
+
+namespace strata::golden {
+
+namespace {
+
+using Keys = std::vector<std::string>;
+
+Keys operator+(Keys keys, const Keys& more) {
+    keys.insert(keys.end(), more.begin(), more.end());
+    return keys;
+}
+
+const Keys kSurface{"film.width=36", "film.height=20", "sampling.N=2", "sun.intensity=4"};
+
+const Keys kTerrain =
+    kSurface + Keys{"surface.kind=terrain", "surface.amplitude=1.5",          "surface.frequency=0.2",
+                    "surface.gain=0.47",    "camera.position=[0,1.2,0]",      "camera.look_at=[1,0.75,6]",
+                    "camera.far=200",       "sun.direction=[-0.8,0.42,0.35]", "sky.haze_distance=60"};
+
+const Keys kHyperterrain =
+    kSurface + Keys{"surface.kind=hyperterrain", "camera.position=[0.3,0.9,0.1]", "camera.look_at=[0.3,0.75,1.1]",
+                    "camera.far=60", "sun.direction=[0.6,0.5,-0.3]"};
+
+const Keys kPlanet = kSurface + Keys{"surface.kind=planet",      "surface.radius=2", "surface.amplitude=0.3",
+                                     "surface.frequency=1.2",    "surface.seed=3",   "camera.position=[0.5,1,-6]",
+                                     "camera.look_at=[0,0,0]",   "camera.far=30",    "sun.direction=[-7,3.5,1]",
+                                     "material.band_height=0.05"};
+
+const Keys kIsosurface =
+    kSurface + Keys{"surface.kind=isosurface", "surface.threshold=0.2",        "surface.bound_size=[1.6,1.6,1.6]",
+                    "surface.amplitude=1",     "surface.frequency=1.7",        "surface.gain=0.45",
+                    "surface.seed=9",          "camera.position=[0,2,-5]",     "camera.look_at=[0,0,0]",
+                    "camera.far=20",           "sun.direction=[-0.5,0.8,-0.6]"};
+
+const Keys kOneOctave{"surface.octaves=1"};
+const Keys kSixteenOctaves{"surface.octaves=16", "sampling.N=1"};
+const Keys kNoShadows{"sun.shadows=false"};
+const Keys kStratified{"sampling.estimator=stratified"};
+const Keys kShutter{"shutter.open_s=0.03", "shutter.frame=7"};
+
+// Past an instant in the middle, when the shutter is open.
+Keys camera_keys(const std::string& from, const std::string& to) {
+    return {"camera.keys=[{time_s=0.2,position=" + from + "},{time_s=0.4,position=" + to +
+            ",fov_deg=40},{time_s=0.9}]"};
+}
+
+std::vector<GoldenScene> grounds() {
+    const Keys flight = camera_keys("[0,1.2,0]", "[0.5,1.1,1]");
+    return {
+        {.name = "terrain", .keys = kTerrain},
+        {.name = "terrain_1_octave", .keys = kTerrain + kOneOctave},
+        {.name = "terrain_16_octaves", .keys = kTerrain + kSixteenOctaves},
+        {.name = "terrain_no_shadows", .keys = kTerrain + kNoShadows + kStratified},
+        {.name = "terrain_camera_keys", .keys = kTerrain + kShutter + flight},
+        {.name = "terrain_drift", .keys = kTerrain + kShutter + Keys{"surface.drift=[3,0,2]", "sampling.time_order=3"}},
+        {.name = "terrain_crop", .keys = kTerrain + kStratified, .crop = render::Window{10, 5, 28, 17}},
+        {.name = "terrain_passes", .keys = kTerrain + kStratified + Keys{"sampling.N=1"}, .passes = 4},
+        {.name = "terrain_aov", .keys = kTerrain, .with_costs = true},
+        {.name = "terrain_many_rays",
+         .keys = kTerrain + Keys{"sampling.N=8", "surface.octaves=5", "sampling.tolerance=1"},
+         .crop = render::Window{8, 9, 24, 17}},
+        {.name = "terrain_noon", .keys = kTerrain + Keys{"sun.direction=[0,1,0]", "sampling.tolerance=0.01"}},
+        {.name = "terrain_night", .keys = kTerrain + Keys{"sun.direction=[0.4,-0.2,1]", "sampling.tolerance=1"}},
+        {.name = "terrain_reference",
+         .keys = kTerrain + Keys{"surface.octaves=4", "sampling.N=1", "sky.haze_distance=0"},
+         .tracer = render::Tracer::reference},
+        {.name = "hyperterrain", .keys = kHyperterrain + kStratified},
+        {.name = "hyperterrain_1_octave", .keys = kHyperterrain + kOneOctave},
+        {.name = "hyperterrain_16_octaves", .keys = kHyperterrain + kSixteenOctaves},
+        {.name = "hyperterrain_drift", .keys = kHyperterrain + kShutter + Keys{"surface.drift=[1,2,-1]"}},
+        {.name = "hyperterrain_aov", .keys = kHyperterrain + kNoShadows + kStratified, .with_costs = true},
+        {.name = "hyperterrain_camera_keys",
+         .keys = kHyperterrain + kShutter + camera_keys("[0.3,0.9,0]", "[0.5,1.1,0.4]") +
+                 Keys{"camera.interpolation=linear"}},
+        {.name = "hyperterrain_rotated",
+         .keys = kHyperterrain + Keys{"surface.rotation_deg=[10,40,-15]", "surface.origin=[0.1,-0.4,2]"}},
+    };
+}
+
+std::vector<GoldenScene> bodies() {
+    const Keys spin{"surface.spin_deg_per_s=72", "surface.spin_axis=[0.2,1,0.1]"};
+    return {
+        {.name = "planet", .keys = kPlanet},
+        {.name = "planet_1_octave", .keys = kPlanet + kOneOctave + kStratified},
+        {.name = "planet_16_octaves", .keys = kPlanet + kSixteenOctaves},
+        {.name = "planet_spin", .keys = kPlanet + kShutter + spin + Keys{"sampling.time_order=4"}},
+        {.name = "planet_passes", .keys = kPlanet + kNoShadows + Keys{"sampling.N=1"}, .passes = 3},
+        {.name = "planet_shared_crop", .keys = kPlanet + Keys{"sampling.m=3"}, .crop = render::Window{8, 4, 25, 16}},
+        {.name = "isosurface", .keys = kIsosurface},
+        {.name = "isosurface_1_octave", .keys = kIsosurface + kOneOctave},
+        {.name = "isosurface_16_octaves", .keys = kIsosurface + kSixteenOctaves + kStratified},
+        {.name = "isosurface_box_aov",
+         .keys = kIsosurface + Keys{"surface.bound=box", "surface.bound_size=[1.5,1,1.2]"},
+         .with_costs = true},
+        {.name = "isosurface_all_motion",
+         .keys = kIsosurface + kShutter + spin + camera_keys("[0,2,-5]", "[1,2.2,-4.5]") +
+                 Keys{"surface.drift=[0.5,1,0]", "sampling.estimator=sobol"}},
+    };
+}
+
+// Numbers so large or small that float cannot tell where the surface is, and double decides.
+std::vector<GoldenScene> extremes() {
+    return {
+        {.name = "earth_in_metres",
+         .keys = kPlanet + Keys{"surface.radius=6.371e6", "surface.frequency=1e-5", "surface.octaves=18",
+                                "surface.amplitude=3000", "camera.far=1e8", "camera.position=[0,6.771e6,0]",
+                                "camera.look_at=[0,5.9e6,2e6]", "sun.direction=[1,0.05,0.1]"}},
+        {.name = "terrain_far_away",
+         .keys = kTerrain + Keys{"surface.origin=[1e7,0,-1e7]", "sampling.tolerance=1e-6", "surface.octaves=12"}},
+        {.name = "terrain_micrometres",
+         .keys = kTerrain + Keys{"surface.scale=1e-6", "camera.position=[0,1.2e-6,0]",
+                                 "camera.look_at=[1e-6,0.75e-6,6e-6]", "camera.far=2e-4"}},
+        {.name = "terrain_finest_cells",
+         .keys =
+             kTerrain + Keys{"surface.frequency=1e9", "surface.octaves=8", "surface.lacunarity=3", "camera.far=60"}},
+        {.name = "hyperterrain_steep", .keys = kHyperterrain + Keys{"surface.amplitude=1e4", "surface.frequency=3"}},
+        {.name = "isosurface_telescope",
+         .keys = kIsosurface + Keys{"camera.position=[4e3,8e3,-2e4]", "camera.far=1e5", "camera.fov_deg=0.01"}},
+    };
+}
+
+// The estimators and orders that the scenes above leave out, over surfaces and over pictures that trace nothing.
+std::vector<GoldenScene> estimators() {
+    const auto by = [](const std::string& estimator, int N, int m) {
+        return Keys{"sampling.estimator=" + estimator, "sampling.N=" + std::to_string(N),
+                    "sampling.m=" + std::to_string(m)};
+    };
+    const auto pattern = [&](const std::string& image) {
+        return Keys{"film.width=24", "film.height=14", "image=" + image};
+    };
+    return {
+        {.name = "none_terrain_aov", .keys = kTerrain + by("none", 1, 1), .with_costs = true},
+        {.name = "super_hyperterrain", .keys = kHyperterrain + by("super", 2, 4)},
+        {.name = "jittered_isosurface", .keys = kIsosurface + by("jittered", 2, 3)},
+        {.name = "random_planet_aov", .keys = kPlanet + by("random", 2, 6), .with_costs = true},
+        {.name = "none_zoneplate", .keys = pattern("zoneplate") + by("none", 1, 1)},
+        {.name = "super_zoneplate", .keys = pattern("zoneplate") + by("super", 3, 1)},
+        {.name = "uniform_zoneplate", .keys = pattern("zoneplate") + by("uniform", 3, 2)},
+        {.name = "jittered_checker", .keys = pattern("checker") + by("jittered", 3, 4)},
+        {.name = "stratified_checker", .keys = pattern("checker") + by("stratified", 3, 15)},
+        {.name = "random_edge", .keys = pattern("edge") + by("random", 3, 8)},
+        {.name = "sobol_edge", .keys = pattern("edge") + by("sobol", 3, 1)},
+        {.name = "shared_ramp", .keys = pattern("ramp") + by("shared", 2, 2)},
+        {.name = "shared_sobol_constant", .keys = pattern("constant") + by("shared-sobol", 1, 15)},
+        {.name = "exact_inverse_zoneplate", .keys = pattern("zoneplate") + by("stratified", 2, 40)},
+        {.name = "stratified_wheel",
+         .keys = pattern("wheel") + by("stratified", 3, 4) + kShutter + Keys{"sampling.time_order=4"}},
+        {.name = "shared_sobol_wheel_passes",
+         .keys = pattern("wheel") + by("shared-sobol", 2, 1) + kShutter,
+         .passes = 2},
+    };
+}
+
+}  // namespace
+
+std::vector<GoldenScene> golden_scenes() {
+    std::vector<GoldenScene> all;
+    for (auto* group : {grounds, bodies, extremes, estimators}) {
+        for (GoldenScene& golden : group()) all.push_back(std::move(golden));
+    }
+    return all;
+}
+
+scene::Scene scene_of(const GoldenScene& golden) {
+    scene::Scene scene;
+    for (const std::string& key : golden.keys) scene::apply_override(scene, key);
+    scene::validate(scene, golden.name);
+    return scene;
+}
+
+}  // namespace strata::golden

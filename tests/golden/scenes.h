@@ -1,0 +1,29 @@
+// Tiny scenes that between them go through all that a picture can be made of.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/render/film.h"
+#include "src/render/make_image.h"
+#include "src/scene/scene.h"
+
+namespace strata::golden {
+
+struct GoldenScene {
+    std::string name;
+    std::vector<std::string> keys;         // as for --set, over the defaults: keys outlive the structs that hold them
+    int passes = 1;                        // of N x N samples
+    std::optional<render::Window> crop{};  // half-open; nothing: the whole frame
+    bool with_costs = false;               // steps and evaluations of each pixel as well
+    render::Tracer tracer = render::Tracer::fast;
+};
+
+// Their names differ and name files.
+std::vector<GoldenScene> golden_scenes();
+
+// Throws scene::SceneError for a key that is unknown or out of range.
+scene::Scene scene_of(const GoldenScene& golden);
+
+}  // namespace strata::golden
