@@ -127,7 +127,7 @@ void add_sweep_command(Command& program, int& exit_code) {
         "One or two axes may have several values, at most 100 each and 400 pictures in all; others have one.\n"
         "The folder gets each picture as float EXR (N02_m04.exr), sweep.png, a labelled contact sheet, and sweep.csv\n"
         "and sweep.json with settings, rays, times and errors. Pictures of the same scene and settings that are there\n"
-        "already are kept, with their times; others of their names are replaced.\n"
+        "already, whole, are kept, with their times; damaged ones and others of their names are replaced.\n"
         "Automatic reference: two shared-sobol pictures of different seeds, reference_*_a.exr and _b.exr, and their "
         "mean; "
         "one\n"

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "src/image/digest.h"
 #include "src/image/image_error.h"
 #include "src/image/library.h"
 #include "src/image/srgb.h"
@@ -75,6 +76,15 @@ void set_windows(OIIO::ImageSpec& spec, const PictureShape& shape) {
     spec.full_height = shape.frame_height;
 }
 
+// With room for the digest, first of all: what users typed comes after it.
+Metadata with_blank_digest(const Metadata& metadata) {
+    Metadata result;
+    result.set(kDigestKey, blank_digest());
+    for (const auto& [name, value] : metadata.entries())
+        if (name != kDigestKey) result.set(name, value);
+    return result;
+}
+
 void set_metadata(OIIO::ImageSpec& spec, const std::filesystem::path& path, Format format, const Metadata& metadata) {
     if (format == Format::exr || format == Format::png) {
         for (const auto& [name, value] : metadata.entries()) spec.attribute(name, value);
@@ -120,7 +130,7 @@ OIIO::ImageSpec make_spec(const std::filesystem::path& path, Format format, cons
     if (format != Format::tiff) spec.attribute("oiio:ColorSpace", linear ? "Linear" : "sRGB");
     // OpenImageIO dates EXR and TIFF files unless there is a DateTime; one that is no text is not written.
     if (windows) spec.attribute("DateTime", 0);
-    set_metadata(spec, path, format, metadata);
+    set_metadata(spec, path, format, with_blank_digest(metadata));
     return spec;
 }
 
