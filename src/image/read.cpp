@@ -115,6 +115,8 @@ void refuse_damaged(const fs::path& path, const OpenPicture& opened) {
 
 bool is_picture(const fs::path& path) { return sniff(path).has_value(); }
 
+void refuse_damaged(const fs::path& path) { refuse_damaged(path, open_picture(path)); }
+
 PictureFacts read_facts(const fs::path& path) {
     const OpenPicture opened = open_picture(path);
     PictureFacts facts{shape_of(opened.format, opened.spec), {}, Integrity::unknown};

@@ -25,6 +25,10 @@ struct PictureFacts {
 // Reads all bytes and decodes no pixel. Throws ImageError for what is no picture.
 PictureFacts read_facts(const std::filesystem::path& path);
 
+// Throws as read_picture() for a picture that is damaged by its digest or what its format tells without decoding: before
+// its metadata are believed.
+void refuse_damaged(const std::filesystem::path& path);
+
 // The first three channels. Values are as stored: linear in EXR, sRGB codes scaled to [0,1] in the others. Frame and
 // crop come from EXR and TIFF; elsewhere the picture is its own frame. A frame that does not start at (0,0) is moved
 // there. Throws ImageError for what is no picture, has fewer than three channels or is damaged: by its

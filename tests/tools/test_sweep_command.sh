@@ -39,7 +39,7 @@ reference_m04.exr reference_m04_a.exr reference_m04_b.exr sweep.csv sweep.json s
     rm s/N02_m01.exr s/reference_m04_b.exr s/sweep.png
     truncate -s 700 s/N01_m01.exr
     run sweep "${tiny[@]}" --N 1,2 --m 1,4 -o s
-    expect_match 'only what is missing or damaged is rendered' "$status: $output" '0: kept *5 pictures, 3 to render*'
+    expect_match 'only what is missing or damaged is rendered' "$status: $output" '0: damaged  s/N01_m01.exr: *it is made again*kept     5 pictures, 3 to render*'
     expect_same_file 'what was missing is as it was' s/N02_m01.exr t/N02_m01.exr
     expect_same_file 'what was damaged is as it was' s/N01_m01.exr t/N01_m01.exr
     expect_same_file 'the sheet is as it was' s/sweep.png t/sweep.png
