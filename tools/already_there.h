@@ -1,5 +1,5 @@
-// Whether a file is there already, whole and the very one that would be made: what every command asks that goes on where
-// it was stopped.
+// Whether a file is there already, whole and the very one that would be made: what every command asks that goes on
+// where it was stopped.
 #pragma once
 
 #include <filesystem>

@@ -53,9 +53,10 @@ LoadedScene from_picture(const std::filesystem::path& path) {
     if (!text) throw UsageError(path.string() + ": this picture does not say how it was made: strata did not write it");
     // The scene may still be right, and is how the picture is made anew.
     if (image::read_facts(path).integrity == image::Integrity::damaged) {
-        print_error(fmt::format("warning: {} is damaged: its bytes are not those that were written, and what it says of "
-                                "its scene may be wrong",
-                                path.string()));
+        print_error(
+            fmt::format("warning: {} is damaged: its bytes are not those that were written, and what it says of "
+                        "its scene may be wrong",
+                        path.string()));
     }
     LoadedScene loaded;
     loaded.scene = scene::read_scene(*text, path.string());

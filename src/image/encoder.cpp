@@ -17,7 +17,8 @@ namespace {
 
 constexpr float kMaxHalf = 65504.0f;
 
-// A TIFF description is read back up to 65,536 bytes, a JPEG segment holds 65,533 with its own header inside.
+// A TIFF description is read back up to 65,536 bytes, a JPEG segment holds 65,533 with its own header inside: room
+// for the digest beside what is given.
 constexpr std::size_t kMaxDescription = 60'000;
 
 constexpr int kTileSide = 64;
@@ -86,15 +87,16 @@ Metadata with_blank_digest(const Metadata& metadata) {
 }
 
 void set_metadata(OIIO::ImageSpec& spec, const std::filesystem::path& path, Format format, const Metadata& metadata) {
+    const Metadata with_digest = with_blank_digest(metadata);
     if (format == Format::exr || format == Format::png) {
-        for (const auto& [name, value] : metadata.entries()) spec.attribute(name, value);
+        for (const auto& [name, value] : with_digest.entries()) spec.attribute(name, value);
         return;
     }
-    const std::string description = pack(metadata);
-    if (description.size() > kMaxDescription)
-        fail(path, fmt::format("{} bytes of metadata do not fit, at most {} do; .exr and .png hold more",
-                               description.size(), kMaxDescription));
-    if (!description.empty()) spec.attribute("ImageDescription", description);
+    const std::size_t size = pack(metadata).size();
+    if (size > kMaxDescription)
+        fail(path, fmt::format("{} bytes of metadata do not fit, at most {} do; .exr and .png hold more", size,
+                               kMaxDescription));
+    spec.attribute("ImageDescription", pack(with_digest));
 }
 
 bool is_tiled(const PictureShape& shape, ExrLayout layout) {
@@ -130,7 +132,7 @@ OIIO::ImageSpec make_spec(const std::filesystem::path& path, Format format, cons
     if (format != Format::tiff) spec.attribute("oiio:ColorSpace", linear ? "Linear" : "sRGB");
     // OpenImageIO dates EXR and TIFF files unless there is a DateTime; one that is no text is not written.
     if (windows) spec.attribute("DateTime", 0);
-    set_metadata(spec, path, format, with_blank_digest(metadata));
+    set_metadata(spec, path, format, metadata);
     return spec;
 }
 

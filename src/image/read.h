@@ -25,8 +25,8 @@ struct PictureFacts {
 // Reads all bytes and decodes no pixel. Throws ImageError for what is no picture.
 PictureFacts read_facts(const std::filesystem::path& path);
 
-// Throws as read_picture() for a picture that is damaged by its digest or what its format tells without decoding: before
-// its metadata are believed.
+// Throws as read_picture() for a picture that is damaged by its digest or what its format tells without decoding:
+// before its metadata are believed.
 void refuse_damaged(const std::filesystem::path& path);
 
 // The first three channels. Values are as stored: linear in EXR, sRGB codes scaled to [0,1] in the others. Frame and

@@ -130,7 +130,8 @@ std::vector<ordered_json> records_of(const std::vector<fs::path>& paths) {
         std::ifstream file(path);
         if (!file) continue;
         ordered_json record = ordered_json::parse(file, nullptr, /*allow_exceptions=*/false);
-        if (!record.is_object()) throw std::runtime_error(fmt::format("{}: it is no record of a figure", path.string()));
+        if (!record.is_object())
+            throw std::runtime_error(fmt::format("{}: it is no record of a figure", path.string()));
         records.push_back(std::move(record));
     }
     return records;
