@@ -55,11 +55,21 @@ void report(const SweepJob& job, const SweepResults& results) {
     print_out(text);
 }
 
+SweepLedger ledger_of(const SweepJob& job) {
+    const std::filesystem::path file = job.folder / kJsonFile;
+    const std::optional<SweepLedger> ledger = read_ledger(file);
+    if (!ledger && !job.quiet) {
+        print_out(fmt::format("damaged  {}: it cannot be read; the times of pictures that are kept are lost\n",
+                              file.string()));
+    }
+    return ledger.value_or(SweepLedger{});
+}
+
 int sweep_command(const SweepRequest& request) {
     static render::CancelToken cancel;
     render::cancel_on_signals(cancel);
     const SweepJob job = prepare_sweep(request);
-    SweepLedger ledger = read_ledger(job.folder / kJsonFile);
+    SweepLedger ledger = ledger_of(job);
     const SweepOutcome outcome = render_sweep(job, ledger, cancel);
     if (outcome.unresolved_rays > 0 && !job.quiet)
         print_error(

@@ -8,6 +8,7 @@
 #include "src/image/write.h"
 #include "tests/image/damage.h"
 #include "tests/image/scratch_folder.h"
+#include "tools/figures/films.h"
 #include "tools/figures/record.h"
 
 using namespace strata;
@@ -140,5 +141,25 @@ TEST_CASE("a record vouches for each of its files, byte by byte") {
     for (const std::string& damaged : {std::string(), bytes.substr(0, bytes.size() / 2), std::string("[1]\n")}) {
         write_bytes(path, damaged);
         CHECK(!is_made(record));
+    }
+}
+
+TEST_CASE("a film is made when its record vouches for both of its files") {
+    const ScratchFolder folder;
+    const figures::Film film = figures::films(figures::Size::small).front();
+    const std::vector<std::string> files = figures::film_files(film);
+    for (const std::string& file : files) write_bytes(folder / file, "frames of " + file);
+    CHECK(!figures::is_made(film, folder.path(), true));
+    figures::write_record(folder / (film.name + ".json"), figures::film_record(film), files);
+    CHECK(figures::is_made(film, folder.path(), true));
+    CHECK(!figures::is_made(figures::films(figures::Size::large).front(), folder.path(), true));
+    for (const std::string& file : files) {
+        const std::string whole = file_bytes(folder / file);
+        for (const std::string& damaged : {std::string(), whole.substr(0, 5), "Frames" + whole.substr(6)}) {
+            write_bytes(folder / file, damaged);
+            CHECK(!figures::is_made(film, folder.path(), true));
+        }
+        write_bytes(folder / file, whole);
+        CHECK(figures::is_made(film, folder.path(), true));
     }
 }
