@@ -6,6 +6,7 @@
 #include "src/image/write.h"
 #include "src/render/cancel.h"
 #include "src/render/progress_printer.h"
+#include "tools/already_there.h"
 #include "tools/animate/film.h"
 #include "tools/animate/job.h"
 #include "tools/animate/sheet.h"
@@ -30,13 +31,15 @@ struct Todo {
 // Throws UsageError for the first file that is there and is not the frame asked for.
 Todo files_to_write(const AnimateJob& job, int frame) {
     const image::Metadata metadata = frame_metadata(job, frame);
+    const image::PictureShape whole{job.width, job.height, 0, 0, job.width, job.height};
     Todo todo{frame, {}};
     for (const FrameOutput& output : job.frames) {
         const fs::path path = output.pattern.path(frame);
         const bool replaces = job.overwrite && !output.is_scratch;
-        const FoundFrame found = replaces ? FoundFrame{} : find_frame(path, metadata, job.width, job.height);
-        if (found.state == FrameState::whole) continue;
-        if (found.state == FrameState::other && !output.is_scratch) {
+        const Found found = replaces ? Found{} : find_picture(path, metadata, whole);
+        if (found.presence == Presence::same) continue;
+        if (found.presence == Presence::damaged && !job.quiet) tell_damaged(path, found);
+        if (found.presence == Presence::other && !output.is_scratch) {
             throw UsageError(
                 fmt::format("{} is there and is not the frame asked for: {}; allowed: --overwrite, or "
                             "another -o",
@@ -229,8 +232,10 @@ void add_animate_command(Command& program, int& exit_code) {
         "Frame k begins at k / shutter.fps seconds. What moves: camera.keys, surface.spin_deg_per_s, surface.drift, "
         "the\n"
         "wheel. Motion blur: shutter.open_s > 0, by a B-spline of order --time-order, N * N samples in all.\n"
-        "A frame that is there, whole and of the same settings, is kept. One of other settings is refused before\n"
-        "anything is rendered, unless --overwrite is given. Films alone keep their frames in FILE.frames until they "
+        "A frame that is there, whole and of the same settings, is kept; an empty, cut or damaged one is made again. "
+        "One\n"
+        "of other settings is refused before anything is rendered, unless --overwrite is given. Films alone keep their "
+        "frames in FILE.frames until they "
         "are\n"
         "encoded; interrupted, the same command goes on from them.\n"
         "The built-in scenes isosurface and wheel are compared side by side unless --columns says otherwise.\n"

@@ -83,7 +83,7 @@ void say(const char* what, const fs::path& path, bool quiet) {
 
 void make_films(const figures::MakeOptions& options, const std::string& threads) {
     for (const figures::Film& film : figures::films(options.size)) {
-        const bool kept = !options.overwrite && figures::is_made(film, options.folder);
+        const bool kept = !options.overwrite && figures::is_made(film, options.folder, options.quiet);
         if (!kept && !figures::make_film(film, {.folder = options.folder,
                                                 .size = options.size,
                                                 .threads = threads,
@@ -155,8 +155,8 @@ void add_figures_command(Command& program, int& exit_code) {
         "4  zone plate and receding checker      8  the wagon wheel: box and cubic in time\n"
         "Each is figure-K.png (plots: figure-K.svg too), the panels and float EXR parts it was assembled from, and\n"
         "figure-K.json: one line with every parameter and with what was chosen where the paper does not tell.\n"
-        "A figure that is there, whole, with the same parameters and by the same version, is kept; plots are drawn "
-        "anew.\n"
+        "A figure that is there, whole, with the same parameters and by the same version, is kept; one with\n"
+        "an empty, cut or damaged file is made again; plots are drawn anew.\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, 130 or 143 interrupted.");
     command->callback([request, &exit_code] { exit_code = figures_command(*request); });
 }

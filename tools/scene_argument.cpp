@@ -19,6 +19,7 @@
 #include "src/scene/toml_reader.h"
 #include "src/scene/validate.h"
 #include "tools/errors.h"
+#include "tools/standard_output.h"
 
 namespace strata::tools {
 
@@ -50,6 +51,13 @@ std::string unknown_scene(const std::string& name) {
 LoadedScene from_picture(const std::filesystem::path& path) {
     const auto text = image::read_metadata(path, image::kSceneKey);
     if (!text) throw UsageError(path.string() + ": this picture does not say how it was made: strata did not write it");
+    // The scene may still be right, and is how the picture is made anew.
+    if (image::read_facts(path).integrity == image::Integrity::damaged) {
+        print_error(
+            fmt::format("warning: {} is damaged: its bytes are not those that were written, and what it says of "
+                        "its scene may be wrong",
+                        path.string()));
+    }
     LoadedScene loaded;
     loaded.scene = scene::read_scene(*text, path.string());
     loaded.name = path.stem().string();

@@ -55,11 +55,21 @@ void report(const SweepJob& job, const SweepResults& results) {
     print_out(text);
 }
 
+SweepLedger ledger_of(const SweepJob& job) {
+    const std::filesystem::path file = job.folder / kJsonFile;
+    const std::optional<SweepLedger> ledger = read_ledger(file);
+    if (!ledger && !job.quiet) {
+        print_out(fmt::format("damaged  {}: it cannot be read; the times of pictures that are kept are lost\n",
+                              file.string()));
+    }
+    return ledger.value_or(SweepLedger{});
+}
+
 int sweep_command(const SweepRequest& request) {
     static render::CancelToken cancel;
     render::cancel_on_signals(cancel);
     const SweepJob job = prepare_sweep(request);
-    SweepLedger ledger = read_ledger(job.folder / kJsonFile);
+    SweepLedger ledger = ledger_of(job);
     const SweepOutcome outcome = render_sweep(job, ledger, cancel);
     if (outcome.unresolved_rays > 0 && !job.quiet)
         print_error(
@@ -127,7 +137,7 @@ void add_sweep_command(Command& program, int& exit_code) {
         "One or two axes may have several values, at most 100 each and 400 pictures in all; others have one.\n"
         "The folder gets each picture as float EXR (N02_m04.exr), sweep.png, a labelled contact sheet, and sweep.csv\n"
         "and sweep.json with settings, rays, times and errors. Pictures of the same scene and settings that are there\n"
-        "already are kept, with their times; others of their names are replaced.\n"
+        "already, whole, are kept, with their times; damaged ones and others of their names are replaced.\n"
         "Automatic reference: two shared-sobol pictures of different seeds, reference_*_a.exr and _b.exr, and their "
         "mean; "
         "one\n"

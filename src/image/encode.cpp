@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "src/image/digest.h"
 #include "src/image/encoder.h"
 #include "src/image/image_error.h"
 
@@ -31,6 +32,7 @@ std::vector<unsigned char> encode_with(const std::filesystem::path& path, const 
         write(encoder, rgb.subspan(begin, std::min(kStripRows * row_values, rgb.size() - begin)));
     }
     encoder.finish();
+    put_digest(format_of(path), bytes);
     return bytes;
 }
 

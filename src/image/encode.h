@@ -33,7 +33,8 @@ inline constexpr int kStripRows = 64;
 // chroma subsampling. The last three are multiplied by 2^exposure, clamped, passed through sRGB's transfer function and
 // rounded to the nearest code. EXR and TIFF keep the crop as data window and the frame as display window; PNG and JPEG
 // hold the crop alone. Finite radiance beyond the largest half (65504) becomes that. EXR and PNG carry each metadata
-// entry under its name, TIFF and JPEG all of them packed into the image description. Throws ImageError, which names
+// entry under its name, TIFF and JPEG all of them packed into the image description; a digest of the file's bytes
+// (digest.h) is one of them. Throws ImageError, which names
 // `path`, for NaN or infinite pixels, for metadata too long for the format (60,000 bytes in TIFF and JPEG) and for a
 // picture that breaks its own rules. Only the extension and the name of `path` are used.
 std::vector<unsigned char> encode(const std::filesystem::path& path, const Picture& picture, const Metadata& metadata,

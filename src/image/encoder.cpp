@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "src/image/digest.h"
 #include "src/image/image_error.h"
 #include "src/image/library.h"
 #include "src/image/srgb.h"
@@ -16,7 +17,8 @@ namespace {
 
 constexpr float kMaxHalf = 65504.0f;
 
-// A TIFF description is read back up to 65,536 bytes, a JPEG segment holds 65,533 with its own header inside.
+// A TIFF description is read back up to 65,536 bytes, a JPEG segment holds 65,533 with its own header inside: room
+// for the digest beside what is given.
 constexpr std::size_t kMaxDescription = 60'000;
 
 constexpr int kTileSide = 64;
@@ -75,16 +77,26 @@ void set_windows(OIIO::ImageSpec& spec, const PictureShape& shape) {
     spec.full_height = shape.frame_height;
 }
 
+// With room for the digest, first of all: what users typed comes after it.
+Metadata with_blank_digest(const Metadata& metadata) {
+    Metadata result;
+    result.set(kDigestKey, blank_digest());
+    for (const auto& [name, value] : metadata.entries())
+        if (name != kDigestKey) result.set(name, value);
+    return result;
+}
+
 void set_metadata(OIIO::ImageSpec& spec, const std::filesystem::path& path, Format format, const Metadata& metadata) {
+    const Metadata with_digest = with_blank_digest(metadata);
     if (format == Format::exr || format == Format::png) {
-        for (const auto& [name, value] : metadata.entries()) spec.attribute(name, value);
+        for (const auto& [name, value] : with_digest.entries()) spec.attribute(name, value);
         return;
     }
-    const std::string description = pack(metadata);
-    if (description.size() > kMaxDescription)
-        fail(path, fmt::format("{} bytes of metadata do not fit, at most {} do; .exr and .png hold more",
-                               description.size(), kMaxDescription));
-    if (!description.empty()) spec.attribute("ImageDescription", description);
+    const std::size_t size = pack(metadata).size();
+    if (size > kMaxDescription)
+        fail(path, fmt::format("{} bytes of metadata do not fit, at most {} do; .exr and .png hold more", size,
+                               kMaxDescription));
+    spec.attribute("ImageDescription", pack(with_digest));
 }
 
 bool is_tiled(const PictureShape& shape, ExrLayout layout) {

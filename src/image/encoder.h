@@ -35,7 +35,8 @@ class Encoder {
     // Black ones.
     void write_rows_left();
 
-    // Throws ImageError that names the first pixel that is not finite, if any is.
+    // Throws ImageError that names the first pixel that is not finite, if any is. What has come of it is a whole file
+    // but for its digest (digest.h), which its owner puts in.
     void finish();
 
   private:

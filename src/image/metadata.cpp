@@ -49,6 +49,10 @@ std::string unescape(std::string_view text) {
 
 }  // namespace
 
+bool Metadata::allows(std::string_view name, std::string_view value) {
+    return is_name(name) && value.find('\0') == std::string_view::npos;
+}
+
 void Metadata::set(std::string_view name, std::string_view value) {
     if (!is_name(name)) throw ImageError(fmt::format("\"{}\" is no metadata name", name));
     if (value.find('\0') != std::string_view::npos)
@@ -87,8 +91,9 @@ Metadata unpack(std::string_view text) {
         const std::string_view line = text.substr(0, text.find('\n'));
         text.remove_prefix(std::min(text.size(), line.size() + 1));
         const std::size_t split = line.find(kSeparator);
-        if (split == std::string_view::npos || !is_name(line.substr(0, split))) continue;
-        metadata.set(line.substr(0, split), unescape(line.substr(split + kSeparator.size())));
+        if (split == std::string_view::npos) continue;
+        const std::string value = unescape(line.substr(split + kSeparator.size()));
+        if (Metadata::allows(line.substr(0, split), value)) metadata.set(line.substr(0, split), value);
     }
     return metadata;
 }

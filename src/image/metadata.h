@@ -22,6 +22,9 @@ class Metadata {
   public:
     using Entry = std::pair<std::string, std::string>;
 
+    // Whether name and value keep the rules above.
+    static bool allows(std::string_view name, std::string_view value);
+
     // Replaces an earlier value of the same name. Throws ImageError for a name or value outside the rules above.
     void set(std::string_view name, std::string_view value);
     void set(std::string_view name, const char* value) { set(name, std::string_view(value)); }

@@ -17,6 +17,7 @@ struct PictureShape {
 
     int width() const { return x1 - x0; }
     int height() const { return y1 - y0; }
+    bool operator==(const PictureShape&) const = default;
 };
 
 // The crop [x0,x1) x [y0,y1) in frame pixels, y down, not empty and inside the frame.

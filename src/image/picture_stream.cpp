@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <fstream>
 #include <vector>
 
+#include "src/image/digest.h"
 #include "src/image/encoder.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
@@ -69,8 +71,13 @@ class FileProxy final : public OIIO::Filesystem::IOProxy {
 struct PictureStream::State {
     State(const std::filesystem::path& path, const PictureShape& picture_shape, const Metadata& metadata,
           const WriteOptions& write_options)
-        : shape(picture_shape), options(write_options), bytes(path), encoder(path, shape, metadata, options, bytes) {}
+        : format(format_of(path)),
+          shape(picture_shape),
+          options(write_options),
+          bytes(path),
+          encoder(path, shape, metadata, options, bytes) {}
 
+    Format format;
     PictureShape shape;
     WriteOptions options;
     FileProxy bytes;
@@ -81,6 +88,21 @@ struct PictureStream::State {
         is_closed = true;
         encoder.finish();
         bytes.flush_or_throw();
+    }
+
+    // The header went first, so the digest of all bytes takes reading them back.
+    void put_in_place() {
+        std::ifstream written(bytes.file().hidden_path(), std::ios::binary);
+        const auto read = [&](std::int64_t offset, std::span<unsigned char> part) {
+            written.clear();
+            written.seekg(offset);
+            written.read(reinterpret_cast<char*>(part.data()), static_cast<std::streamsize>(part.size()));
+            return static_cast<std::size_t>(written.gcount());
+        };
+        put_digest(format, read, [&](std::int64_t offset, std::span<const unsigned char> part) {
+            bytes.file().write_at(offset, part);
+        });
+        bytes.file().put_in_place();
     }
 };
 
@@ -107,7 +129,7 @@ void PictureStream::write(std::span<const float> rgb, std::span<const float> ext
 
 void PictureStream::finish() {
     state_->close();
-    state_->bytes.file().put_in_place();
+    state_->put_in_place();
 }
 
 void PictureStream::finish_partial(const std::filesystem::path& path, const Metadata& metadata) {
@@ -127,7 +149,7 @@ void PictureStream::finish_partial(const std::filesystem::path& path, const Meta
         throw;
     }
     partial.close();
-    partial.bytes.file().put_in_place();
+    partial.put_in_place();
 }
 
 }  // namespace strata::image

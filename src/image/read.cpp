@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 
+#include "src/image/deflate_check.h"
 #include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/library.h"
@@ -74,23 +75,63 @@ OpenPicture open_picture(const fs::path& path) {
     return opened;
 }
 
-Picture make_window(Format format, const OIIO::ImageSpec& spec) {
-    if (format == Format::png || format == Format::jpeg) return make_picture(spec.width, spec.height);
+PictureShape shape_of(Format format, const OIIO::ImageSpec& spec) {
+    if (format == Format::png || format == Format::jpeg)
+        return {spec.width, spec.height, 0, 0, spec.width, spec.height};
     const int x0 = spec.x - spec.full_x;
     const int y0 = spec.y - spec.full_y;
-    Picture picture{spec.full_width, spec.full_height, x0, y0, x0 + spec.width, y0 + spec.height, {}};
+    return {spec.full_width, spec.full_height, x0, y0, x0 + spec.width, y0 + spec.height};
+}
+
+Picture make_window(Format format, const OIIO::ImageSpec& spec) {
+    const PictureShape s = shape_of(format, spec);
+    Picture picture{s.frame_width, s.frame_height, s.x0, s.y0, s.x1, s.y1, {}};
     picture.rgb.resize(3 * picture.pixels());
     return picture;
+}
+
+Metadata metadata_of(const OpenPicture& opened) {
+    if (opened.format == Format::tiff || opened.format == Format::jpeg)
+        return unpack(opened.spec.get_string_attribute("ImageDescription").str());
+    Metadata metadata;
+    for (const OIIO::ParamValue& value : opened.spec.extra_attribs) {
+        if (value.type() != OIIO::TypeDesc::STRING) continue;
+        const std::string text = value.get_string(0);
+        if (Metadata::allows(value.name().string(), text)) metadata.set(value.name().string(), text);
+    }
+    return metadata;
+}
+
+// A file of another length than its digest tells is one that another program has written, or is cut, which decoding
+// finds.
+void refuse_damaged(const fs::path& path, const OpenPicture& opened) {
+    const Integrity integrity = check_digest(path, opened.format, metadata_of(opened).find(kDigestKey));
+    if (integrity == Integrity::damaged) fail(path, "it is damaged: its bytes are not those that were written");
+    if (integrity == Integrity::whole || opened.format != Format::tiff) return;
+    if (const auto damage = find_deflate_damage(path)) fail(path, *damage);
 }
 
 }  // namespace
 
 bool is_picture(const fs::path& path) { return sniff(path).has_value(); }
 
+void refuse_damaged(const fs::path& path) { refuse_damaged(path, open_picture(path)); }
+
+PictureFacts read_facts(const fs::path& path) {
+    const OpenPicture opened = open_picture(path);
+    PictureFacts facts{shape_of(opened.format, opened.spec), {}, Integrity::unknown};
+    const Metadata metadata = metadata_of(opened);
+    for (const auto& [name, value] : metadata.entries())
+        if (name != kDigestKey) facts.metadata.set(name, value);
+    facts.integrity = check_digest(path, opened.format, metadata.find(kDigestKey));
+    return facts;
+}
+
 Picture read_picture(const fs::path& path) {
     const OpenPicture opened = open_picture(path);
     if (opened.spec.nchannels < 3)
         fail(path, fmt::format("it has {} channels, three are needed", opened.spec.nchannels));
+    refuse_damaged(path, opened);
     Picture picture = make_window(opened.format, opened.spec);
     // A TIFF that lacks strips is "read", with an error pending.
     const bool done = opened.input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, picture.rgb.data());
@@ -107,13 +148,7 @@ Picture read_linear(const fs::path& path, double exposure) {
 }
 
 std::optional<std::string> read_metadata(const fs::path& path, std::string_view name) {
-    const OpenPicture opened = open_picture(path);
-    if (opened.format == Format::tiff || opened.format == Format::jpeg)
-        return unpack(opened.spec.get_string_attribute("ImageDescription").str()).find(name);
-    const OIIO::ParamValue* value =
-        opened.spec.find_attribute(OIIO::string_view(name.data(), name.size()), OIIO::TypeDesc::STRING);
-    if (value == nullptr) return std::nullopt;
-    return value->get_string(0);
+    return metadata_of(open_picture(path)).find(name);
 }
 
 }  // namespace strata::image

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "src/image/digest.h"
+#include "src/image/metadata.h"
 #include "src/image/picture.h"
 
 namespace strata::image {
@@ -13,9 +15,24 @@ namespace strata::image {
 // Whether the file starts like a picture of a known format. False for what cannot be read.
 bool is_picture(const std::filesystem::path& path);
 
+// What a file says of itself.
+struct PictureFacts {
+    PictureShape shape;  // as of read_picture()
+    Metadata metadata;   // without the digest
+    Integrity integrity = Integrity::unknown;
+};
+
+// Reads all bytes and decodes no pixel. Throws ImageError for what is no picture.
+PictureFacts read_facts(const std::filesystem::path& path);
+
+// Throws as read_picture() for a picture that is damaged by its digest or what its format tells without decoding:
+// before its metadata are believed.
+void refuse_damaged(const std::filesystem::path& path);
+
 // The first three channels. Values are as stored: linear in EXR, sRGB codes scaled to [0,1] in the others. Frame and
 // crop come from EXR and TIFF; elsewhere the picture is its own frame. A frame that does not start at (0,0) is moved
-// there. Throws ImageError for what is no picture, has fewer than three channels or is damaged.
+// there. Throws ImageError for what is no picture, has fewer than three channels or is damaged: by its
+// digest (digest.h) or, where it has none, as far as its format tells.
 Picture read_picture(const std::filesystem::path& path);
 
 // Linear radiance: EXR as stored, the others' sRGB codes decoded, with the exposure (stops, finite) undone that they

@@ -8,24 +8,12 @@
 #include "src/image/image_error.h"
 #include "src/image/read.h"
 #include "src/image/write.h"
+#include "tests/image/damage.h"
 #include "tests/image/scratch_folder.h"
-
-#ifdef __SANITIZE_ADDRESS__
-#include <sanitizer/lsan_interface.h>
-#endif
 
 using namespace strata::image;
 
 namespace {
-
-// For as long as it lives, this thread's allocations are not looked at for leaks: on a damaged file OpenImageIO's PNG
-// reader leaves by longjmp, past the destructors of its strings.
-struct LibraryMayLeak {
-#ifdef __SANITIZE_ADDRESS__
-    LibraryMayLeak() { __lsan_disable(); }
-    ~LibraryMayLeak() { __lsan_enable(); }
-#endif
-};
 
 template <class Body>
 std::string error_of(Body body) {

@@ -56,6 +56,18 @@ $(cd f && echo *.json)" '7 6 figure-4.json'
     run figures --only 4 --size small -o f --threads 1
     expect_match 'a figure that lost a part is made again' "$status: $output" '0: made *'
     expect_same_file 'its parts do not depend on threads' f/figure-4-checker-box.exr part.exr
+    local file
+    for file in figure-4.png figure-4-checker-box.exr; do
+        truncate -s -9 "f/$file"
+        run figures --only 4 --size small -o f
+        expect_match 'a figure with a cut file is made again and the file named' "$status: $output" \
+            "0: damaged  f/$file: its bytes are not those*made *"
+    done
+    : >f/figure-4-checker-box.exr
+    run figures --only 4 --size small -o f
+    expect_match 'and one with an empty file' "$status: $output" '0: damaged  f/figure-4-checker-box.exr: it is empty*made *'
+    run figures --only 4 --size small -o f
+    expect_match 'then it is whole and kept' "$status: $output" '0: kept *f/figure-4.png*'
     run figures --only 4 --size small -o f --overwrite
     expect_match '--overwrite makes it again' "$status: $output" '0: made *'
 }

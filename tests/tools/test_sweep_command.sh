@@ -39,9 +39,14 @@ reference_m04.exr reference_m04_a.exr reference_m04_b.exr sweep.csv sweep.json s
     rm s/N02_m01.exr s/reference_m04_b.exr s/sweep.png
     truncate -s 700 s/N01_m01.exr
     run sweep "${tiny[@]}" --N 1,2 --m 1,4 -o s
-    expect_match 'only what is missing or damaged is rendered' "$status: $output" '0: kept *5 pictures, 3 to render*'
+    expect_match 'only what is missing or damaged is rendered' "$status: $output" '0: damaged  s/N01_m01.exr: *it is made again*kept     5 pictures, 3 to render*'
     expect_same_file 'what was missing is as it was' s/N02_m01.exr t/N02_m01.exr
     expect_same_file 'what was damaged is as it was' s/N01_m01.exr t/N01_m01.exr
+    cp s/sweep.json whole.json
+    truncate -s 100 s/sweep.json
+    run sweep "${tiny[@]}" --N 1,2 --m 1,4 -o s
+    expect_match 'a cut table of times is said' "$status: $output" '0: damaged  s/sweep.json: *times*lost*nothing to render*'
+    mv whole.json s/sweep.json
     expect_same_file 'the sheet is as it was' s/sweep.png t/sweep.png
     expect 'the times of kept pictures are kept' "$(grep -A6 '"N01_m04.exr": {' s/sweep.json)" "$before"
     run sweep "${tiny[@]}" --N 1,2 --m 1,4 --set surface.gain=0.4 -o s

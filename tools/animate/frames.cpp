@@ -3,12 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
-#include <system_error>
 
-#include "src/image/image_error.h"
-#include "src/image/read.h"
-#include "src/scene/key_text.h"
 #include "tools/errors.h"
 
 namespace strata::tools {
@@ -21,23 +16,6 @@ std::string with_doubled_percent(const std::string& text) {
     std::string result;
     for (const char c : text) result += c == '%' ? std::string("%%") : std::string(1, c);
     return result;
-}
-
-// A line of a printed scene without its comment.
-std::string_view setting_of(std::string_view line) {
-    line = line.substr(0, line.find(" #"));
-    return line.substr(0, line.find_last_not_of(' ') + 1);
-}
-
-// The first line in which two texts differ.
-std::string difference(std::string_view found, std::string_view expected) {
-    while (!found.empty() && !expected.empty()) {
-        const std::string_view a = found.substr(0, found.find('\n')), b = expected.substr(0, expected.find('\n'));
-        if (a != b) return fmt::format("'{}', not '{}'", scene::excerpt(setting_of(a)), scene::excerpt(setting_of(b)));
-        found.remove_prefix(std::min(found.size(), a.size() + 1));
-        expected.remove_prefix(std::min(expected.size(), b.size() + 1));
-    }
-    return "longer or shorter";
 }
 
 }  // namespace
@@ -75,28 +53,6 @@ std::string FramePattern::ffmpeg_pattern() const {
 
 std::string FramePattern::text() const {
     return (folder_ / (before_ + std::string(static_cast<std::size_t>(digits_), '#') + after_)).string();
-}
-
-FoundFrame find_frame(const fs::path& path, const image::Metadata& expected, int width, int height) {
-    std::error_code error;
-    if (!fs::exists(fs::symlink_status(path, error))) return {};
-    if (!image::is_picture(path)) return {FrameState::other, "it is no picture"};
-    try {
-        for (const auto& [name, value] : expected.entries()) {
-            const auto found = image::read_metadata(path, name);
-            if (!found) return {FrameState::other, fmt::format("it does not say its {}", name)};
-            if (*found == value) continue;
-            return {FrameState::other, fmt::format("its {} is {}", name, difference(*found, value))};
-        }
-        const image::Picture picture = image::read_picture(path);
-        if (picture.width() != width || picture.height() != height) {
-            return {FrameState::other,
-                    fmt::format("it has {}x{} pixels, not {}x{}", picture.width(), picture.height(), width, height)};
-        }
-    } catch (const image::ImageError& damaged) {
-        return {FrameState::other, damaged.what()};
-    }
-    return {FrameState::whole, {}};
 }
 
 }  // namespace strata::tools

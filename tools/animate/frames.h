@@ -1,10 +1,8 @@
-// The files of an animation's frames, and whether they are there already.
+// The files of an animation's frames.
 #pragma once
 
 #include <filesystem>
 #include <string>
-
-#include "src/image/metadata.h"
 
 namespace strata::tools {
 
@@ -28,15 +26,5 @@ class FramePattern {
     std::string before_, after_;
     int digits_ = 4;
 };
-
-enum class FrameState { missing, whole, other };
-
-struct FoundFrame {
-    FrameState state = FrameState::missing;
-    std::string why;  // it is another: what differs or is wrong with it
-};
-
-// Whether the file is a frame of this size that can be read to its end and says the same of itself.
-FoundFrame find_frame(const std::filesystem::path& path, const image::Metadata& expected, int width, int height);
 
 }  // namespace strata::tools

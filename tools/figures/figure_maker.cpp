@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <string>
+#include <vector>
 
-#include "src/image/output_file.h"
 #include "src/image/write.h"
 #include "src/scene/validate.h"
+#include "tools/figures/record.h"
 #include "tools/picture_metadata.h"
 #include "tools/render_picture.h"
 #include "tools/standard_output.h"
@@ -19,12 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+std::vector<std::string> files_of(const Plan& plan) {
+    std::vector<std::string> files = plan.data;
+    for (const Shown& shown : plan.shown) files.push_back(shown.file);
+    for (const Part& part : plan.parts) files.push_back(part.file);
+    return files;
 }
-
-std::string record_line(const Plan& plan, Size size) { return record_of(plan, size).dump() + "\n"; }
 
 // One meter for the renders of many figures.
 class TotalProgress {
@@ -67,9 +67,7 @@ class Maker {
         for (const Part& part : plan.parts) pictures.push_back(render_part(part));
         stop_if_cancelled();
         figure.draw(plan, pictures, options_.folder);
-        const std::string record = record_line(plan, options_.size);
-        image::replace_file(record_path(options_.folder, plan.number),
-                            std::span(reinterpret_cast<const unsigned char*>(record.data()), record.size()));
+        write_record(record_path(options_.folder, plan.number), record_of(plan, options_.size), files_of(plan));
         tell("made", plan);
     }
 
@@ -116,10 +114,8 @@ double work_of(const Plan& plan) {
 fs::path record_path(const fs::path& folder, int number) { return folder / fmt::format("figure-{}.json", number); }
 
 bool is_made(const MakeOptions& options, const Plan& plan) {
-    const auto there = [&](const std::string& file) { return fs::is_regular_file(options.folder / file); };
-    return text_of(record_path(options.folder, plan.number)) == record_line(plan, options.size) &&
-           std::ranges::all_of(plan.shown, there, &Shown::file) &&
-           std::ranges::all_of(plan.parts, there, &Part::file) && std::ranges::all_of(plan.data, there);
+    return is_made(record_path(options.folder, plan.number), record_of(plan, options.size), files_of(plan),
+                   options.quiet);
 }
 
 void make_figures(const std::vector<Figure>& figures, const MakeOptions& options, const render::CancelToken& cancel) {

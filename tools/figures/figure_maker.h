@@ -22,10 +22,10 @@ struct MakeOptions {
 // Thrown when the token was cancelled: what is finished stays.
 struct Interrupted {};
 
-// "figure-6.json": one line, written last, so that a figure that has it is whole.
+// "figure-6.json" (record.h).
 std::filesystem::path record_path(const std::filesystem::path& folder, int number);
 
-// Whether the figure is there already, whole and as this plan would make it.
+// Whether the figure is there already, whole and as this plan would make it. Tells what is damaged unless quiet.
 bool is_made(const MakeOptions& options, const Plan& plan);
 
 // Plans every figure, renders, draws. Figures that are made already are kept unless they are plots or

@@ -3,13 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <span>
-
-#include "src/image/output_file.h"
 #include "tools/commands.h"
+#include "tools/figures/record.h"
 
 namespace strata::tools::figures {
 
@@ -51,11 +46,8 @@ nlohmann::ordered_json film_record(const Film& film) {
             {"command", command},     {"version", STRATA_VERSION}, {"files", film_files(film)}};
 }
 
-bool is_made(const Film& film, const fs::path& folder) {
-    std::ifstream file(record_path(film, folder), std::ios::binary);
-    const std::string record{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    return record == film_record(film).dump() + "\n" &&
-           std::ranges::all_of(film_files(film), [&](const auto& name) { return fs::is_regular_file(folder / name); });
+bool is_made(const Film& film, const fs::path& folder, bool quiet) {
+    return is_made(record_path(film, folder), film_record(film), film_files(film), quiet);
 }
 
 bool make_film(const Film& film, const FilmOptions& options) {
@@ -74,9 +66,7 @@ bool make_film(const Film& film, const FilmOptions& options) {
     add_animate_command(program, exit_code);
     program.parse(std::move(words));
     if (exit_code != 0) return false;
-    const std::string record = film_record(film).dump() + "\n";
-    image::replace_file(record_path(film, options.folder),
-                        std::span(reinterpret_cast<const unsigned char*>(record.data()), record.size()));
+    write_record(record_path(film, options.folder), film_record(film), film_files(film));
     return true;
 }
 

@@ -30,8 +30,8 @@ std::vector<std::string> film_files(const Film& film);
 // One line, as a figure's record.
 nlohmann::ordered_json film_record(const Film& film);
 
-// Whether the film is there, whole and as it would be made.
-bool is_made(const Film& film, const std::filesystem::path& folder);
+// Whether the film is there, whole and as it would be made. Tells what is damaged unless quiet.
+bool is_made(const Film& film, const std::filesystem::path& folder, bool quiet);
 
 // Makes a film and its record. False when it was interrupted: its frames are kept. Throws what `strata animate` throws.
 bool make_film(const Film& film, const FilmOptions& options);

@@ -128,7 +128,11 @@ std::vector<ordered_json> records_of(const std::vector<fs::path>& paths) {
     std::vector<ordered_json> records;
     for (const fs::path& path : paths) {
         std::ifstream file(path);
-        if (file) records.push_back(ordered_json::parse(file));
+        if (!file) continue;
+        ordered_json record = ordered_json::parse(file, nullptr, /*allow_exceptions=*/false);
+        if (!record.is_object())
+            throw std::runtime_error(fmt::format("{}: it is no record of a figure", path.string()));
+        records.push_back(std::move(record));
     }
     return records;
 }

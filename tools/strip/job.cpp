@@ -33,6 +33,7 @@ constexpr int kPanelWidth = 256;  // that the automatic zoom keeps to
 StripSource from_file(const std::string& path) {
     StripSource source{.name = path, .label = fs::path(path).stem().string(), .file = path, .scene = {}, .picture = {}};
     try {
+        image::refuse_damaged(path);
         const auto text = image::read_metadata(path, image::kSceneKey);
         if (text) source.scene = scene::read_scene(*text, path);
         source.picture = image::read_linear(path, source.scene ? source.scene->film.exposure : 0.0);

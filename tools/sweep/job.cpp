@@ -158,6 +158,7 @@ void make_references(const SweepRequest& request, SweepJob& job) {
 
 void read_reference(const SweepRequest& request, SweepJob& job) {
     try {
+        image::refuse_damaged(request.reference);
         const auto text = image::read_metadata(request.reference, image::kSceneKey);
         const double exposure = text ? scene::read_scene(*text, request.reference).film.exposure : 0.0;
         job.given_reference = image::read_linear(request.reference, exposure);

@@ -23,11 +23,13 @@ PictureCost cost_of(const render::RenderResult& result, const image::Metadata& m
             .threads = result.threads};
 }
 
-SweepLedger read_ledger(const std::filesystem::path& json_file) {
+std::optional<SweepLedger> read_ledger(const std::filesystem::path& json_file) {
     SweepLedger ledger;
+    std::error_code error;
+    if (!std::filesystem::exists(json_file, error)) return ledger;
     std::ifstream file(json_file);
     const auto json = nlohmann::json::parse(file, nullptr, /*allow_exceptions=*/false);
-    if (!json.is_object() || !json.contains("costs") || !json["costs"].is_object()) return ledger;
+    if (!json.is_object() || !json.contains("costs") || !json["costs"].is_object()) return std::nullopt;
     for (const auto& [name, cost] : json["costs"].items()) {
         try {
             ledger[name] = {.fingerprint = cost.at("fingerprint").get<std::string>(),

@@ -28,8 +28,8 @@ PictureCost cost_of(const render::RenderResult& result, const image::Metadata& m
 // By file name.
 using SweepLedger = std::map<std::string, PictureCost>;
 
-// From a sweep.json; empty when there is none or it cannot be understood.
-SweepLedger read_ledger(const std::filesystem::path& json_file);
+// From a sweep.json; empty when there is none, nothing when it cannot be understood.
+std::optional<SweepLedger> read_ledger(const std::filesystem::path& json_file);
 
 // The object of "costs" in a sweep.json.
 nlohmann::ordered_json to_json(const SweepLedger& ledger);

@@ -4,10 +4,9 @@
 
 #include <vector>
 
-#include "src/image/image_error.h"
-#include "src/image/read.h"
 #include "src/image/write.h"
 #include "src/render/progress_printer.h"
+#include "tools/already_there.h"
 #include "tools/batch_progress.h"
 #include "tools/render_picture.h"
 #include "tools/standard_output.h"
@@ -27,27 +26,23 @@ std::vector<const SweepPicture*> pictures_of(const SweepJob& job) {
 
 double rays_of(const SweepPicture& picture) { return expected_rays(picture.scene, picture.window); }
 
-}  // namespace
-
-bool is_whole(const std::filesystem::path& path, const SweepPicture& picture) {
-    try {
-        if (!image::is_picture(path)) return false;
-        for (const auto& [name, value] : picture.metadata.entries())
-            if (image::read_metadata(path, name) != value) return false;
-        const image::Picture read = image::read_picture(path);
-        const render::Window window{read.x0, read.y0, read.x1, read.y1};
-        return window == picture.window && !image::read_metadata(path, "strata:partial");
-    } catch (const image::ImageError&) {
-        return false;
-    }
+bool is_there(const SweepJob& job, const SweepPicture& picture) {
+    const scene::Film& frame = picture.scene.film;
+    const render::Window& w = picture.window;
+    const std::filesystem::path path = job.folder / picture.file;
+    const Found found = find_picture(path, picture.metadata, {frame.width, frame.height, w.x0, w.y0, w.x1, w.y1});
+    if (found.presence == Presence::damaged && !job.quiet) tell_damaged(path, found);
+    return found.presence == Presence::same;
 }
+
+}  // namespace
 
 SweepOutcome render_sweep(const SweepJob& job, SweepLedger& ledger, const render::CancelToken& cancel) {
     SweepOutcome outcome;
     std::vector<const SweepPicture*> missing;
     double total = 0;
     for (const SweepPicture* picture : pictures_of(job)) {
-        if (is_whole(job.folder / picture->file, *picture)) {
+        if (is_there(job, *picture)) {
             ++outcome.kept;
             continue;
         }

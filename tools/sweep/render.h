@@ -10,9 +10,6 @@
 
 namespace strata::tools {
 
-// Whether the file is this very picture: all metadata equal and the pixels readable.
-bool is_whole(const std::filesystem::path& path, const SweepPicture& picture);
-
 struct SweepOutcome {
     std::size_t kept = 0, rendered = 0;
     std::size_t unresolved_rays = 0;  // of the pictures rendered now
