@@ -17,6 +17,7 @@
 #include "src/render/estimator.h"
 #include "src/sample/shutter.h"
 #include "src/scene/key_text.h"
+#include "src/scene/typed_number.h"
 #include "src/scene/validate.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
@@ -41,9 +42,9 @@ std::optional<std::vector<double>> numbers_of(const std::string& line) {
     std::istringstream words(line);
     std::vector<double> numbers;
     for (std::string word; words >> word;) {
-        char* end = nullptr;
-        numbers.push_back(std::strtod(word.c_str(), &end));
-        if (end != word.c_str() + word.size() || !std::isfinite(numbers.back())) return std::nullopt;
+        const auto number = scene::typed_number(word);
+        if (!number) return std::nullopt;
+        numbers.push_back(*number);
     }
     return numbers;
 }

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <system_error>
 
 #include "noise/simd_target.h"
@@ -15,6 +14,7 @@
 #include "src/image/text.h"
 #include "src/scene/enum_names.h"
 #include "src/scene/key_text.h"
+#include "src/scene/typed_number.h"
 #include "tools/duration.h"
 #include "tools/errors.h"
 #include "tools/picture_metadata.h"
@@ -39,13 +39,6 @@ image::ExrFormat parse_format(const std::string& name) {
     if (name == "half") return image::ExrFormat::half;
     if (name == "float") return image::ExrFormat::floating;
     throw UsageError(fmt::format("--format {}: allowed: half, float", name));
-}
-
-render::Window choose_window(const RenderRequest& request, const LoadedScene& loaded) {
-    const scene::Film& film = loaded.scene.film;
-    if (!request.crop.empty()) return parse_crop("--crop", request.crop, film);
-    if (loaded.crop) return parse_crop(fmt::format("{}: its --crop", loaded.source), *loaded.crop, film);
-    return {0, 0, film.width, film.height};
 }
 
 // Bits depend on the SIMD target: a picture is rendered again on its own, where that is here.
@@ -76,13 +69,10 @@ void check_memory(const render::Window& window, const render::PassGoal& goal) {
 
 double parse_target(const std::string& text) {
     constexpr double kLeast = 1e-9, kMost = 1e6;
-    double value = 0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || rest != text.data() + text.size() || !(value >= kLeast && value <= kMost)) {
-        throw UsageError(
-            fmt::format("--target-rmse {}: allowed: a linear radiance, {} to {}", scene::excerpt(text), kLeast, kMost));
-    }
-    return value;
+    const auto value = scene::typed_number(text);
+    if (value && *value >= kLeast && *value <= kMost) return *value;
+    throw UsageError(
+        fmt::format("--target-rmse {}: allowed: a linear radiance, {} to {}", scene::excerpt(text), kLeast, kMost));
 }
 
 render::PassGoal choose_goal(const RenderRequest& request, const LoadedScene& loaded) {
@@ -147,12 +137,8 @@ std::vector<fs::path> output_paths(const RenderRequest& request, const Job& job)
 }
 
 void choose_aovs(const RenderRequest& request, Job& job) {
-    const bool given = !request.aov.empty();
-    if (!given && !job.loaded.aovs) return;
-    job.aovs = parse_aovs(given ? request.aov : *job.loaded.aovs);
-    if (job.goal.passes > 1) {
-        throw UsageError("--aov: allowed with one pass; not with --passes, --target-rmse or --time-limit");
-    }
+    job.aovs = aovs_of(request.aov, job.loaded, job.goal.passes);
+    if (job.aovs.empty()) return;
     image::check_fonts();
     job.write.exr_extra = aov_channels(job.aovs);
 }
@@ -199,7 +185,7 @@ Job prepare(const RenderRequest& request) {
     job.tile = parse_integer("--tile", request.tile, 1, kLargestTile);
     job.loaded = request.scene.load();
     choose_simd_target(request, job.loaded);
-    job.window = choose_window(request, job.loaded);
+    job.window = window_of(request.crop, job.loaded);
     job.tracer = choose(request.tracer, job.loaded.tracer, "fast");
     parse_tracer(job.tracer);
     const std::string format = choose(request.format, job.loaded.exr_format, "half");

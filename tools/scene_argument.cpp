@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <cstdint>
 #include <filesystem>
 
 #include "noise/simd_target.h"
+#include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/metadata.h"
 #include "src/image/read.h"
@@ -17,6 +18,7 @@
 #include "src/scene/override.h"
 #include "src/scene/suggest.h"
 #include "src/scene/toml_reader.h"
+#include "src/scene/typed_number.h"
 #include "src/scene/validate.h"
 #include "tools/errors.h"
 
@@ -31,11 +33,25 @@ std::optional<std::array<int, kCount>> parse_integers(std::string_view text, cha
     for (std::size_t i = 0; i < kCount; ++i) {
         const std::size_t end = i + 1 < kCount ? text.find(separator) : text.size();
         if (end == std::string_view::npos) return std::nullopt;
-        const auto [rest, error] = std::from_chars(text.data(), text.data() + end, values[i]);
-        if (error != std::errc() || rest != text.data() + end || end == 0) return std::nullopt;
+        const auto value = scene::typed_integer<int>(text.substr(0, end));
+        if (!value) return std::nullopt;
+        values[i] = *value;
         text.remove_prefix(std::min(text.size(), end + 1));
     }
     return values;
+}
+
+struct Span {
+    int begin, end;
+};
+
+// The part of `after` pixels that a span was of `before`: spans that touched still touch. One pixel at least.
+Span scaled(const Span& span, int before, int after) {
+    const auto at = [&](int x) {
+        return static_cast<int>((2 * std::int64_t{x} * after + before) / (2 * std::int64_t{before}));
+    };
+    const int begin = std::min(at(span.begin), after - 1);
+    return {begin, std::max(at(span.end), begin + 1)};
 }
 
 std::string unknown_scene(const std::string& name) {
@@ -70,7 +86,7 @@ LoadedScene from_picture(const std::filesystem::path& path) {
 
 // Only .toml goes: a dot may be part of a name.
 std::string name_of_file(const std::filesystem::path& path) {
-    return (path.extension() == ".toml" ? path.stem() : path.filename()).string();
+    return (image::extension_of(path) == ".toml" ? path.stem() : path.filename()).string();
 }
 
 // Options that stand for a scene key. Their values go through the key's own reader, which knows what is allowed.
@@ -171,6 +187,7 @@ LoadedScene SceneArgument::load() const {
         throw UsageError(error.what());
     }
     scene::Scene& scene = loaded.scene;
+    loaded.recorded_film = scene.film;
     for (const std::string& assignment : sets_) scene::apply_override(scene, assignment);
     if (size_) {
         const auto size = parse_integers<2>(*size_, 'x');
@@ -208,6 +225,17 @@ render::Window parse_crop(const std::string& origin, const std::string& text, co
                                      origin, scene::excerpt(text), film.width, film.height));
     }
     return {(*c)[0], (*c)[1], (*c)[2], (*c)[3]};
+}
+
+render::Window window_of(const std::string& crop, const LoadedScene& loaded) {
+    const scene::Film& film = loaded.scene.film;
+    if (!crop.empty()) return parse_crop("--crop", crop, film);
+    if (!loaded.crop) return {0, 0, film.width, film.height};
+    const scene::Film& before = loaded.recorded_film;
+    const render::Window w = parse_crop(loaded.source + ": its --crop", *loaded.crop, before);
+    const Span across = scaled({w.x0, w.x1}, before.width, film.width);
+    const Span down = scaled({w.y0, w.y1}, before.height, film.height);
+    return {across.begin, down.begin, across.end, down.end};
 }
 
 glm::ivec2 parse_pixel(const std::string& text, const scene::Film& film) {

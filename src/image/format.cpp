@@ -22,16 +22,17 @@ constexpr std::array<std::pair<const char*, Format>, 6> kExtensions{{
     {".jpeg", Format::jpeg},
 }};
 
-std::string lower_case(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
-}
-
 }  // namespace
 
+std::string extension_of(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return extension;
+}
+
 Format format_of(const std::filesystem::path& path) {
-    const std::string extension = lower_case(path.extension().string());
+    const std::string extension = extension_of(path);
     for (const auto& [known, format] : kExtensions)
         if (extension == known) return format;
     const std::string found =

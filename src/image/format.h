@@ -1,10 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace strata::image {
 
 enum class Format { exr, png, tiff, jpeg };
+
+// "png" and "PNG" are the same to all who ask for a kind of file: ".png" of "a.PNG"; empty if there is none.
+std::string extension_of(const std::filesystem::path& path);
 
 // By extension, in either case: .exr, .png, .tif, .tiff, .jpg, .jpeg. Throws ImageError for any other.
 Format format_of(const std::filesystem::path& path);

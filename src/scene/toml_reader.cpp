@@ -16,6 +16,7 @@
 #include "src/scene/key_text.h"
 #include "src/scene/scene_text.h"
 #include "src/scene/suggest.h"
+#include "src/scene/typed_number.h"
 
 namespace strata::scene {
 
@@ -267,12 +268,24 @@ MaybeFault read_into(Scene& scene, std::string_view text) {
     return read_entries(std::get<toml::table>(parsed), describe(scene));
 }
 
-bool is_bare_word(std::string_view text) {
-    const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
-    const auto is_part = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) || c == ' ' || c == '-' || c == '_' || c == '.';
-    };
-    return !text.empty() && is_letter(text.front()) && std::all_of(text.begin(), text.end(), is_part);
+bool has_control(std::string_view text) {
+    return std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+}
+
+// Text without quotes around it. A line break in it could begin a further key.
+bool is_bare(std::string_view text) {
+    return !text.empty() && text.front() != '"' && text.front() != '\'' && !has_control(text);
+}
+
+// What somebody typed for a key, as TOML.
+std::string as_toml(const Key& key, std::string_view typed) {
+    if (std::holds_alternative<std::string*>(key.field)) return is_bare(typed) ? quoted(typed) : std::string(typed);
+    const bool is_whole = std::holds_alternative<int*>(key.field) || std::holds_alternative<std::uint64_t*>(key.field);
+    // The other spellings of an integer are TOML's own.
+    if (is_whole && typed.find_first_of(".eE") != std::string_view::npos) {
+        if (const auto integer = typed_integer<std::int64_t>(typed)) return fmt::format("{}", *integer);
+    }
+    return with_toml_numbers(typed);
 }
 
 }  // namespace
@@ -285,16 +298,16 @@ Scene read_scene(std::string_view text, std::string_view source_name) {
 
 Scene load_scene(const std::string& path) { return read_scene(file_text(path), path); }
 
-void assign_value(const Key& key, std::string_view toml_value) {
+void assign_value(const Key& key, std::string_view typed) {
     constexpr std::string_view kName = "value";
-    auto parsed = parse(fmt::format("{} = {}", kName, toml_value));
-    if (std::holds_alternative<Fault>(parsed) && is_bare_word(toml_value)) {
-        parsed = parse(fmt::format("{} = {}", kName, quoted(toml_value)));
+    auto parsed = parse(fmt::format("{} = {}", kName, as_toml(key, typed)));
+    if (std::holds_alternative<Fault>(parsed) && is_bare(typed) && std::isalpha(static_cast<unsigned char>(typed[0]))) {
+        parsed = parse(fmt::format("{} = {}", kName, quoted(typed)));
     }
     const auto* table = std::get_if<toml::table>(&parsed);
     // A line break in the value could start further keys.
     if (!table || table->size() != 1) {
-        throw SceneError(complaint(key, "not a value", toml_value.empty() ? "nothing" : excerpt(toml_value)));
+        throw SceneError(complaint(key, "not a value", typed.empty() ? "nothing" : excerpt(typed)));
     }
     if (const auto fault = assign_node(key, *table->get(kName))) throw SceneError(fault->message);
 }

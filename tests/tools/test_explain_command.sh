@@ -45,6 +45,14 @@ check_stats() {
     expect 'rays of a pass are exact' "$(awk '/^rays/ { print $NF }' <<<"$output")" 1.00
     run explain three.exr --no-pilot
     expect_match 'a picture tells its passes' "$status: $output" '0: *more passes *3 passes*'
+    "$strata" render terrain "${tiny[@]}" --aov steps --quiet -o costly.exr --stats costly.json
+    run explain terrain "${tiny[@]}" --aov steps,evals --stats costly.json
+    expect_match 'what pixels cost is explained as it is rendered' "$status: $output" '0: *other channels *evals.Y, steps.Y*'
+    run explain costly.exr --no-pilot
+    expect_match 'a picture tells its other channels' "$status: $output" '0: *other channels *steps.Y*'
+    refuses 'other channels of several passes are refused as by render' 2 '*--aov: allowed with one pass*' \
+        explain terrain --aov steps --passes 2
+    refuses 'an unknown AOV gets the known ones' 2 '*--aov depth: allowed: steps, evals*' explain terrain --aov depth
     refuses 'counts of another scene are refused' 2 '*terrain.json: of a render of another scene*' \
         explain isosurface "${tiny[@]}" --stats terrain.json
     refuses 'counts with another N are refused' 2 '*another setting*' explain terrain --size 32x18 -N 3 --stats terrain.json

@@ -48,6 +48,9 @@ class Peers {
     std::vector<std::string> missing_;
 };
 
+// Installs what is missing, where that can be, and starts the program anew if more of it is to be built then.
+void install_peers();
+
 // The scene for POV-Ray; max_gradient and shadows are declared on its command line.
 std::string povray_scene(const scene::Scene& scene);
 

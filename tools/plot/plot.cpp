@@ -1,12 +1,13 @@
 #include "tools/plot/plot.h"
 
 #include <fmt/format.h>
-#include <cstdlib>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
+#include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
 #include "tools/plot/script.h"
@@ -18,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path gnuplot() { return find_program("gnuplot", "gnuplot-nox"); }
+fs::path gnuplot() { return find_program("gnuplot", "gnuplot-nox", "plot"); }
 
 PlotFormat format_of(const fs::path& path) {
-    const std::string extension = path.extension().string();
+    const std::string extension = image::extension_of(path);
     if (extension == ".png") return PlotFormat::png;
     if (extension == ".svg") return PlotFormat::svg;
     throw PlotError(fmt::format("{}: allowed: a plot's name ends in .png or .svg", path.string()));

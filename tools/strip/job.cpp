@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "src/image/canvas.h"
@@ -16,6 +15,7 @@
 #include "src/scene/key_text.h"
 #include "src/scene/printer.h"
 #include "src/scene/toml_reader.h"
+#include "src/scene/typed_number.h"
 #include "tools/column_settings.h"
 #include "tools/errors.h"
 #include "tools/picture_labels.h"
@@ -97,12 +97,10 @@ void find_reference(const StripRequest& request, const std::optional<LoadedScene
                 "--difference and --rmse need --reference: the number of a column, a picture, or settings");
         return;
     }
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error == std::errc() && end == text.data() + text.size()) {
-        if (number < 1 || number > static_cast<int>(job.columns.size()))
+    if (const auto number = scene::typed_integer<int>(text)) {
+        if (*number < 1 || *number > static_cast<int>(job.columns.size()))
             throw UsageError(fmt::format("--reference {}: allowed: column 1 to {}", text, job.columns.size()));
-        job.reference_column = static_cast<std::size_t>(number - 1);
+        job.reference_column = static_cast<std::size_t>(*number - 1);
         return;
     }
     const auto named = [&](const StripSource& column) { return column.name == text || column.label == text; };
@@ -194,9 +192,8 @@ int choose_zoom(const StripRequest& request, const render::Window& window) {
 
 std::optional<double> parse_top(const std::string& text) {
     if (text.empty()) return std::nullopt;
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value) || value <= 0)
+    const auto value = scene::typed_number(text);
+    if (!value || !(*value > 0))
         throw UsageError(fmt::format("--difference-top {}: allowed: a radiance above 0", scene::excerpt(text)));
     return value;
 }
