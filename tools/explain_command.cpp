@@ -42,6 +42,7 @@ void check_json(const ExplainRequest& request, const LoadedScene& loaded) {
         }
     }
     image::check_replaceable(request.json);
+    keep_output_for(request.json);
 }
 
 int explain_command(const ExplainRequest& request) {
@@ -69,9 +70,9 @@ int explain_command(const ExplainRequest& request) {
     }
     const std::vector<Aov> aovs = aovs_of(request.aov, loaded, passes);
     explanation.plan = make_plan(loaded.scene, tracer, passes, aovs);
-    explanation.prediction =
-        predict(loaded.scene, explanation.window,
-                {.tracer = tracer, .threads = threads, .passes = passes, .aovs = aovs, .with_pilot = !request.no_pilot});
+    explanation.prediction = predict(
+        loaded.scene, explanation.window,
+        {.tracer = tracer, .threads = threads, .passes = passes, .aovs = aovs, .with_pilot = !request.no_pilot});
     if (!request.json.empty()) {
         const std::string text = explanation_json(explanation);
         image::replace_file(request.json, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
@@ -108,7 +109,8 @@ void add_explain_command(Command& program, int& exit_code) {
             "--stats", request->statistics,
             "What `strata render --stats` wrote of the same render: the actual costs beside the predicted ones")
         ->type_name("FILE.json");
-    command->add_option("--json", request->json, "Write the same as JSON")->type_name("FILE.json");
+    command->add_option("--json", request->json, "Write the same as JSON; - for standard output")
+        ->type_name("FILE.json");
     command->add_flag("--quiet", request->quiet, "No text");
     command->footer(
         "A pilot casts 1 % of the rays - at least 4096, or all; at most 262144, or 16384 of the reference tracer's -\n"

@@ -23,6 +23,7 @@
 #include "tools/errors.h"
 #include "tools/scene_argument.h"
 #include "tools/standard_output.h"
+#include "tools/stream_input.h"
 
 namespace strata::tools {
 
@@ -53,6 +54,9 @@ std::optional<std::vector<double>> numbers_of(const std::string& line) {
 // Other lines, but for empty ones, are errors, as is one that `use` throws BadLine for.
 template <class Use>
 void each_line(std::size_t least, std::size_t most, const char* allowed, const Use& use) {
+    if (standard_input_is_read()) {
+        throw UsageError("-: the scene came from standard input, where the points are to come from; allowed: a file");
+    }
     std::string line;
     for (std::size_t row = 1; std::getline(std::cin, line); ++row) {
         const auto numbers = numbers_of(line);

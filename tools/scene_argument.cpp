@@ -16,11 +16,13 @@
 #include "src/scene/builtin.h"
 #include "src/scene/key_text.h"
 #include "src/scene/override.h"
+#include "src/scene/scene_text.h"
 #include "src/scene/suggest.h"
 #include "src/scene/toml_reader.h"
 #include "src/scene/typed_number.h"
 #include "src/scene/validate.h"
 #include "tools/errors.h"
+#include "tools/stream_input.h"
 
 namespace strata::tools {
 
@@ -63,11 +65,11 @@ std::string unknown_scene(const std::string& name) {
     return message;
 }
 
-LoadedScene from_picture(const std::filesystem::path& path) {
+LoadedScene from_picture(const std::filesystem::path& path, const std::string& source) {
     const auto text = image::read_metadata(path, image::kSceneKey);
-    if (!text) throw UsageError(path.string() + ": this picture does not say how it was made: strata did not write it");
+    if (!text) throw UsageError(source + ": this picture does not say how it was made: strata did not write it");
     LoadedScene loaded;
-    loaded.scene = scene::read_scene(*text, path.string());
+    loaded.scene = scene::read_scene(*text, source);
     loaded.name = path.stem().string();
     // Rendered again, an interrupted picture becomes whole.
     constexpr std::string_view kPartial = ".partial";
@@ -142,7 +144,9 @@ void SceneArgument::add_scene_to(Command& command, const std::string& descriptio
 
 void SceneArgument::add_to(Command& command, const char* name, std::span<const std::string_view> own) {
     command
-        .add_option(name, scene_, "A scene file, a built-in scene (`strata scenes`), or a picture that strata wrote")
+        .add_option(
+            name, scene_,
+            "A scene file, a built-in scene (`strata scenes`), or a picture that strata wrote; - reads standard input")
         ->capture_default_str();
     add_changes(command);
     key_values_.resize(kKeyOptions.size());
@@ -157,7 +161,9 @@ void SceneArgument::add_to(Command& command, const char* name, std::span<const s
 }
 
 LoadedScene SceneArgument::find() const {
-    const std::filesystem::path path(scene_);
+    const auto spooled = spool_stream(scene_);
+    const std::filesystem::path path = spooled.value_or(scene_);
+    const std::string source = scene_ == "-" ? "standard input" : scene_;
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     const bool exists = std::filesystem::exists(status);
@@ -170,12 +176,13 @@ LoadedScene SceneArgument::find() const {
     } else if (!exists && path.filename() == path && !path.has_extension()) {
         throw UsageError(unknown_scene(scene_));
     } else if (image::is_picture(path)) {
-        loaded = from_picture(path);
+        loaded = from_picture(path, source);
     } else {
-        loaded.scene = scene::load_scene(scene_);
+        loaded.scene = scene::read_scene(scene::file_text(path.string()), source);
         loaded.name = name_of_file(path);
     }
-    loaded.source = scene_;
+    if (spooled) loaded.name = "stdin";
+    loaded.source = source;
     return loaded;
 }
 

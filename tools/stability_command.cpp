@@ -72,6 +72,7 @@ std::vector<Output> outputs_of(const StabilityRequest& request) {
     }
     if (!request.json.empty()) outputs.push_back({request.json, stability::json_table});
     for (const Output& output : outputs) image::check_replaceable(output.path);
+    keep_output_for(request.json);
     return outputs;
 }
 
@@ -86,8 +87,7 @@ int stability_command(const StabilityRequest& request) {
                                      settings.fast};
     render::StatusLine line;
     const std::vector<stability::Row> rows = stability::run_cases(
-        cases, settings, threads,
-        [&](std::size_t done, std::size_t total, const stability::Case& next) {
+        cases, settings, threads, [&](std::size_t done, std::size_t total, const stability::Case& next) {
             if (!request.quiet) line.show(fmt::format("{}/{}  {}: {}", done, total, next.group, next.name));
         });
     line.clear();
@@ -112,7 +112,8 @@ void add_stability_command(Command& program, int& exit_code) {
     auto request = std::make_shared<StabilityRequest>();
     command->add_option("-o,--output", request->folder, "Folder to write stability.md and stability.json to")
         ->type_name("FOLDER");
-    command->add_option("--json", request->json, "Write the JSON to this file")->type_name("FILE");
+    command->add_option("--json", request->json, "Write the JSON to this file; - for standard output")
+        ->type_name("FILE");
     command
         ->add_option("--only", request->groups,
                      fmt::format("Only these groups, separated by commas: {}", fmt::join(stability::groups(), ", ")))

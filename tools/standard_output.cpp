@@ -8,12 +8,14 @@
 #include <cstdio>
 #include <system_error>
 
+#include "src/image/stream_target.h"
 #include "tools/errors.h"
 
 namespace strata::tools {
 
 namespace {
 
+bool is_output_kept = false;
 int output_error = 0;  // errno of the first write that failed
 
 void note(bool written) {
@@ -36,7 +38,13 @@ void guard_standard_streams() {
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
+void keep_output_for(const std::filesystem::path& path) { is_output_kept |= image::is_standard_output(path); }
+
 void print_out(std::string_view text) {
+    if (is_output_kept) {
+        std::fwrite(text.data(), 1, text.size(), stderr);
+        return;
+    }
     errno = 0;
     note(std::fwrite(text.data(), 1, text.size(), stdout) == text.size());
 }

@@ -1,6 +1,7 @@
 // Standard output that may be closed, on a full disk, or a pipe whose reader has gone.
 #pragma once
 
+#include <filesystem>
 #include <string_view>
 
 namespace strata::tools {
@@ -8,6 +9,10 @@ namespace strata::tools {
 // Call first. A closed standard stream is kept closed, so that no picture is opened in its place and gets its text;
 // a full disk and a lost reader are errors of the write (EFBIG, EPIPE), not signals that end the program.
 void guard_standard_streams();
+
+// Messages go to standard error from now on: standard output is for a picture or a report, if that is where `path`
+// leads.
+void keep_output_for(const std::filesystem::path& path);
 
 // Never throws: a failure is remembered for finish_output().
 void print_out(std::string_view text);

@@ -1,5 +1,5 @@
-// Shows progress on stderr: a line rewritten in place where that can be (status_line.h), and once, wherever it goes, a warning if
-// the render will be long.
+// Shows progress on stderr: a line rewritten in place where that can be (status_line.h), and once, wherever it goes, a
+// warning if the render will be long.
 #pragma once
 
 #include <string>

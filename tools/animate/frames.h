@@ -8,8 +8,8 @@
 
 namespace strata::tools {
 
-// Names of numbered files: "out/name.####.png"; each '#' is a digit at least, the last run of them if there are several.
-// Without '#', "name.png" stands for "name.####.png".
+// Names of numbered files: "out/name.####.png"; each '#' is a digit at least, the last run of them if there are
+// several. Without '#', "name.png" stands for "name.####.png".
 class FramePattern {
   public:
     explicit FramePattern(const std::filesystem::path& typed);

@@ -8,6 +8,7 @@
 #include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
+#include "src/image/stream_target.h"
 #include "src/image/text.h"
 #include "src/scene/key_text.h"
 #include "src/scene/validate.h"
@@ -75,6 +76,10 @@ bool is_png(const FrameOutput& output) { return image::extension_of(output.patte
 
 void add_output(AnimateJob& job, const fs::path& typed) {
     if (!typed.has_filename()) throw UsageError(fmt::format("-o {}: names no file", typed.string()));
+    if (image::stream_target(typed)) {
+        throw UsageError(fmt::format(
+            "-o {}: allowed: files; frames are numbered ones, and films are put in place whole", typed.string()));
+    }
     if (is_film(typed)) {
         if (std::ranges::find(job.films, typed) == job.films.end()) job.films.push_back(typed);
         return;

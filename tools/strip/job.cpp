@@ -11,6 +11,7 @@
 #include "src/image/metadata.h"
 #include "src/image/output_file.h"
 #include "src/image/read.h"
+#include "src/image/stream_target.h"
 #include "src/image/text.h"
 #include "src/scene/key_text.h"
 #include "src/scene/printer.h"
@@ -19,6 +20,8 @@
 #include "tools/column_settings.h"
 #include "tools/errors.h"
 #include "tools/picture_labels.h"
+#include "tools/standard_output.h"
+#include "tools/stream_input.h"
 
 namespace strata::tools {
 
@@ -30,11 +33,14 @@ constexpr int kMostColumns = 64;
 constexpr int kMostZoom = 64;
 constexpr int kPanelWidth = 256;  // that the automatic zoom keeps to
 
-StripSource from_file(const std::string& path) {
-    StripSource source{.name = path, .label = fs::path(path).stem().string(), .file = path, .scene = {}, .picture = {}};
+StripSource from_file(const std::string& typed) {
+    const auto spooled = spool_stream(typed);
+    const fs::path path = spooled.value_or(typed);
+    const std::string label = typed == "-" ? "stdin" : fs::path(typed).stem().string();
+    StripSource source{.name = typed, .label = label, .file = path, .scene = {}, .picture = {}};
     try {
         const auto text = image::read_metadata(path, image::kSceneKey);
-        if (text) source.scene = scene::read_scene(*text, path);
+        if (text) source.scene = scene::read_scene(*text, typed);
         source.picture = image::read_linear(path, source.scene ? source.scene->film.exposure : 0.0);
     } catch (const image::ImageError& error) {
         throw UsageError(error.what());
@@ -243,7 +249,8 @@ void check_inputs_stay(const StripJob& job) {
 
 fs::path part_path(const StripJob& job, std::optional<std::size_t> i) {
     const std::string which = i ? fmt::format("{:0{}}", *i + 1, job.columns.size() > 9 ? 2 : 1) : "reference";
-    return job.output.parent_path() / fmt::format("{}-{}.exr", job.output.stem().string(), which);
+    const fs::path sheet = image::stream_target(job.output) ? fs::path("strip.png") : job.output;
+    return sheet.parent_path() / fmt::format("{}-{}.exr", sheet.stem().string(), which);
 }
 
 StripJob prepare_strip(const StripRequest& request) {
@@ -270,6 +277,9 @@ StripJob prepare_strip(const StripRequest& request) {
     job.caption = request.caption.value_or(default_caption(job));
     if (loaded) job.scene_text = scene::print_scene(loaded->scene);
     job.output = request.output.empty() ? fs::path("strip.png") : fs::path(request.output);
+    const auto stream = image::stream_target(job.output);
+    if (stream && !stream->format) job.output = "png:" + job.output.string();
+    keep_output_for(job.output);
     check_outputs(job);
     check_inputs_stay(job);
     image::check_fonts();
