@@ -67,12 +67,12 @@ figures::Size parse_size(const std::string& name) {
 // The folder, made if need be; everything else that the figures need is there.
 void check_surroundings(const std::vector<Figure>& chosen, const fs::path& folder) {
     image::check_fonts();
+    if (std::ranges::any_of(chosen, &Figure::is_plot)) check_plotter();
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw UsageError(fmt::format("-o {}: {}", folder.string(), error.message()));
     for (const Figure& figure : chosen) image::check_replaceable(figures::record_path(folder, figure.number));
     image::check_replaceable(folder / kPage);
-    if (std::ranges::any_of(chosen, &Figure::is_plot)) check_plotter();
 }
 
 bool makes_films(const FiguresRequest& request) { return request.html && !request.no_films; }
