@@ -14,6 +14,13 @@ CLI::Option* last_counts(CLI::Option* option) {
     return option;
 }
 
+// A script's unset variable is no wish for the default.
+CLI::Option* not_empty(CLI::Option* option) {
+    return option->check([](const std::string& value) {
+        return std::string(value.empty() ? "an empty value; without the option its default is taken" : "");
+    });
+}
+
 }  // namespace
 
 Option* Option::type_name(const std::string& name) {
@@ -51,7 +58,7 @@ Command* Command::add_subcommand(const std::string& name, const std::string& des
 void Command::require_subcommand() { app_->require_subcommand(1); }
 
 Option* Command::add_option(const std::string& names, std::string& value, const std::string& meaning) {
-    return keep(last_counts(app_->add_option(names, value, meaning)));
+    return keep(not_empty(last_counts(app_->add_option(names, value, meaning))));
 }
 
 Option* Command::add_option(const std::string& names, std::optional<std::string>& value, const std::string& meaning) {

@@ -20,7 +20,8 @@ void print_out(std::string_view text);
 // For whoever waits at the other end of a pipe. False once nothing more can be written.
 bool flush_out();
 
-// A line to standard error, after "strata: ". Never throws.
+// A line to standard error, after "strata: ". Never throws. Control characters, which names of files may hold and a
+// terminal would obey, are shown as \u001B; those of print_out() are, where that is a terminal.
 void print_error(std::string_view message);
 
 // Flushes. exit_code, or that of a failure, with a message, if output was lost; a reader who has gone wanted no more.

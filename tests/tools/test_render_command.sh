@@ -49,6 +49,30 @@ check_wrong_values() {
         --set surface.lacunarity=10
 }
 
+check_empty_values() {
+    local option
+    for option in --crop --threads --tile --tracer --simd --format --aov --stats --passes --target-rmse --time-limit; do
+        refuses "an empty $option is refused, not taken for none" 2 "*$option*an empty value*" render "$option" ''
+    done
+    refuses 'so is an empty size' 2 '*--size : allowed*' render --size ''
+    refuses 'an empty output' 2 '*format of ""*' render -o ''
+    refuses 'an empty scene' 2 '*an empty value*' render ''
+    refuses 'an empty name of a scene' 2 '*an empty value*' scenes ''
+    refuses 'empty frames' 2 '*--frames*an empty value*' animate wheel --frames ''
+    refuses 'an empty folder' 2 '*--output*an empty value*' converge edge -o ''
+}
+
+check_control_characters() {
+    local name=$'a\e[31m\a.toml' said
+    for said in render explain 'probe field' 'strip --columns none --scene'; do
+        # shellcheck disable=SC2086 # words are meant
+        run $said "$name"
+        expect_match "'$said' shows a name's control characters, and does not send them" "$status: $output" '2: *a\\u001B\[31m\\u0007.toml*'
+    done
+    run render -o $'a\e.bmp'
+    expect_match 'of outputs too' "$status: $output" '2: *a\\u001B.bmp*'
+}
+
 check_scene_files() {
     : >empty.toml
     head -c 300 "$strata" >junk.toml
@@ -310,5 +334,5 @@ check_failing_writes() {
     expect_match 'there is help for each command' "$status: $output" '0: *--sample*'
 }
 
-run_groups check_unknown_words check_wrong_values check_scene_files check_outputs check_rendering_again \
+run_groups check_unknown_words check_wrong_values check_empty_values check_control_characters check_scene_files check_outputs check_rendering_again \
     check_repeated_options check_typed_numbers check_progress check_aovs check_probes check_samples check_signals check_failing_writes

@@ -9,6 +9,7 @@
 
 #include "src/image/image_error.h"
 #include "src/scene/printer.h"
+#include "tools/bench/own_folder.h"
 #include "tools/bench/variants.h"
 #include "tools/installer.h"
 #include "tools/process.h"

@@ -14,7 +14,7 @@
 
 #include "src/render/cancel.h"
 #include "tools/bench/results.h"
-#include "tools/bench/scratch.h"
+#include "tools/temporary_folder.h"
 
 namespace strata::tools::bench {
 
@@ -42,7 +42,7 @@ class Peers {
     PeerResult& result(const std::string& id, const std::string& what);
 
     Plan plan_;
-    Scratch scratch_;
+    TemporaryFolder scratch_{"bench"};
     std::filesystem::path povray_, embree_;  // empty: not there
     std::vector<PeerResult> results_;
     std::vector<std::string> missing_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
@@ -12,6 +11,7 @@
 #include "src/image/output_file.h"
 #include "tools/plot/script.h"
 #include "tools/process.h"
+#include "tools/temporary_folder.h"
 
 namespace strata::tools {
 
@@ -84,27 +84,6 @@ void check_panel(const PlotPanel& panel) {
     }
 }
 
-// A folder of its own for gnuplot's script and output, removed with both.
-class WorkFolder {
-  public:
-    WorkFolder() {
-        std::string pattern = (fs::temp_directory_path() / "strata-plot-XXXXXX").string();
-        if (::mkdtemp(pattern.data()) == nullptr) throw PlotError(pattern + ": this folder cannot be made");
-        path_ = pattern;
-    }
-    ~WorkFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    WorkFolder(const WorkFolder&) = delete;
-    WorkFolder& operator=(const WorkFolder&) = delete;
-
-    fs::path operator/(const char* name) const { return path_ / name; }
-
-  private:
-    fs::path path_;
-};
-
 std::vector<unsigned char> bytes_of(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -130,8 +109,8 @@ void write_plot(const Plot& plot, const fs::path& path) {
     const PlotFormat format = format_of(path);
     check_plot(plot);
     const fs::path program = gnuplot();
-    const WorkFolder folder;
-    const fs::path script = folder / "plot.gp", drawn = folder / "plot";
+    const TemporaryFolder folder("plot");
+    const fs::path script = folder.path() / "plot.gp", drawn = folder.path() / "plot";
     std::ofstream(script, std::ios::binary) << plot_script(plot, format, drawn.string());
     // -d: no start-up files of the user or the system.
     run_program(program, {"-d", script.string()});
