@@ -59,6 +59,8 @@ check_stats() {
     refuses 'counts of another crop are refused' 2 '*crop*' explain terrain "${tiny[@]}" --crop 0,0,4,4 --stats terrain.json
     refuses 'counts of another tracer are refused' 2 '*tracer*' explain terrain "${tiny[@]}" --tracer reference --stats terrain.json
     refuses 'a missing record is refused' 2 '*none.json: cannot be read*' explain terrain --stats none.json
+    run explain wheel --size 2x2
+    expect_match 'a share of all rays reads as that' "$output" '*, 100 % of all*'
     refuses 'a folder is no record, and says so' 2 '*--stats .: cannot be read: Is a directory' explain terrain --stats .
     refuses 'a picture is no record' 2 '*a.png: not JSON*' explain terrain --stats a.png
 }
