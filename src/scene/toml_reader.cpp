@@ -5,7 +5,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <span>
 #include <utility>
@@ -16,7 +15,7 @@
 #include "src/scene/key_text.h"
 #include "src/scene/scene_text.h"
 #include "src/scene/suggest.h"
-#include "src/scene/typed_number.h"
+#include "src/scene/typed_value.h"
 
 namespace strata::scene {
 
@@ -268,26 +267,6 @@ MaybeFault read_into(Scene& scene, std::string_view text) {
     return read_entries(std::get<toml::table>(parsed), describe(scene));
 }
 
-bool has_control(std::string_view text) {
-    return std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
-}
-
-// Text without quotes around it. A line break in it could begin a further key.
-bool is_bare(std::string_view text) {
-    return !text.empty() && text.front() != '"' && text.front() != '\'' && !has_control(text);
-}
-
-// What somebody typed for a key, as TOML.
-std::string as_toml(const Key& key, std::string_view typed) {
-    if (std::holds_alternative<std::string*>(key.field)) return is_bare(typed) ? quoted(typed) : std::string(typed);
-    const bool is_whole = std::holds_alternative<int*>(key.field) || std::holds_alternative<std::uint64_t*>(key.field);
-    // The other spellings of an integer are TOML's own.
-    if (is_whole && typed.find_first_of(".eE") != std::string_view::npos) {
-        if (const auto integer = typed_integer<std::int64_t>(typed)) return fmt::format("{}", *integer);
-    }
-    return with_toml_numbers(typed);
-}
-
 }  // namespace
 
 Scene read_scene(std::string_view text, std::string_view source_name) {
@@ -300,8 +279,8 @@ Scene load_scene(const std::string& path) { return read_scene(file_text(path), p
 
 void assign_value(const Key& key, std::string_view typed) {
     constexpr std::string_view kName = "value";
-    auto parsed = parse(fmt::format("{} = {}", kName, as_toml(key, typed)));
-    if (std::holds_alternative<Fault>(parsed) && is_bare(typed) && std::isalpha(static_cast<unsigned char>(typed[0]))) {
+    auto parsed = parse(fmt::format("{} = {}", kName, toml_of_typed(key, typed)));
+    if (std::holds_alternative<Fault>(parsed) && is_bare_word(typed)) {
         parsed = parse(fmt::format("{} = {}", kName, quoted(typed)));
     }
     const auto* table = std::get_if<toml::table>(&parsed);
