@@ -48,6 +48,15 @@ std::vector<Aov> parse_aovs(const std::string& text) {
     return aovs;
 }
 
+std::vector<Aov> aovs_of(const std::string& typed, const LoadedScene& loaded, int passes) {
+    if (typed.empty() && !loaded.aovs) return {};
+    std::vector<Aov> aovs = parse_aovs(!typed.empty() ? typed : *loaded.aovs);
+    if (passes > 1) {
+        throw UsageError("--aov: allowed with one pass; not with --passes, --target-rmse or --time-limit");
+    }
+    return aovs;
+}
+
 std::vector<std::string> aov_channels(const std::vector<Aov>& aovs) {
     std::vector<std::string> channels;
     channels.reserve(aovs.size());

@@ -8,6 +8,7 @@
 #include "src/image/canvas.h"
 #include "src/image/metadata.h"
 #include "src/render/film.h"
+#include "tools/scene_argument.h"
 
 namespace strata::tools {
 
@@ -18,6 +19,9 @@ std::string name_of(Aov aov);
 
 // "steps,evals" and the like, in the order of their channels, each once. Throws UsageError for another word.
 std::vector<Aov> parse_aovs(const std::string& text);
+
+// Those of --aov, empty if not given, else those that the picture recorded. Throws UsageError, for several passes too.
+std::vector<Aov> aovs_of(const std::string& typed, const LoadedScene& loaded, int passes);
 
 // Channels of an EXR: "evals.Y", "steps.Y".
 std::vector<std::string> aov_channels(const std::vector<Aov>& aovs);

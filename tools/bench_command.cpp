@@ -10,6 +10,7 @@
 #include "src/image/output_file.h"
 #include "src/render/cancel.h"
 #include "src/render/progress_printer.h"
+#include "tools/bench/peers.h"
 #include "tools/bench/report.h"
 #include "tools/bench/run.h"
 #include "tools/commands.h"
@@ -83,6 +84,7 @@ int bench_command(const BenchRequest& request) {
     }
     fs::path folder;
     if (!request.no_files) folder = prepare_folder(request);
+    if (plan.has(Section::peers)) bench::install_peers();
 
     render::ProgressPrinter progress(request.quiet);
     const bench::Results results = bench::run(plan, rounds, progress.callback(), cancel);

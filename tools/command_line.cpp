@@ -5,6 +5,24 @@
 
 namespace strata::tools {
 
+namespace {
+
+// Of an option given twice: what a script appends to a line overrides what stands there. Arguments, which have no
+// name, are not repeated but too many.
+CLI::Option* last_counts(CLI::Option* option) {
+    if (!option->get_positional()) option->take_last();
+    return option;
+}
+
+// A script's unset variable is no wish for the default.
+CLI::Option* not_empty(CLI::Option* option) {
+    return option->check([](const std::string& value) {
+        return std::string(value.empty() ? "an empty value; without the option its default is taken" : "");
+    });
+}
+
+}  // namespace
+
 Option* Option::type_name(const std::string& name) {
     option_->type_name(name);
     return this;
@@ -40,11 +58,11 @@ Command* Command::add_subcommand(const std::string& name, const std::string& des
 void Command::require_subcommand() { app_->require_subcommand(1); }
 
 Option* Command::add_option(const std::string& names, std::string& value, const std::string& meaning) {
-    return keep(app_->add_option(names, value, meaning));
+    return keep(not_empty(last_counts(app_->add_option(names, value, meaning))));
 }
 
 Option* Command::add_option(const std::string& names, std::optional<std::string>& value, const std::string& meaning) {
-    return keep(app_->add_option(names, value, meaning));
+    return keep(last_counts(app_->add_option(names, value, meaning)));
 }
 
 Option* Command::add_option(const std::string& names, std::vector<std::string>& values, const std::string& meaning) {

@@ -49,7 +49,9 @@ class Command {
     // One subcommand must be given, and no second.
     void require_subcommand();
 
-    // An option, "-o,--output", or an argument, "SCENE", with its value, which must outlive parsing.
+    // An option, "-o,--output", or an argument, "SCENE", with its value, which must outlive parsing. Of an option that
+    // is given again the last value counts, unless it is repeated() or takes several. An empty value is refused; as an
+    // optional it is the command's to judge.
     Option* add_option(const std::string& names, std::string& value, const std::string& meaning);
     Option* add_option(const std::string& names, std::optional<std::string>& value, const std::string& meaning);
     Option* add_option(const std::string& names, std::vector<std::string>& values, const std::string& meaning);

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <string_view>
 
 #include "src/scene/key_text.h"
+#include "src/scene/typed_number.h"
 #include "tools/errors.h"
 
 namespace strata::tools {
@@ -26,11 +25,10 @@ double seconds_of_unit(std::string_view unit) {
 }  // namespace
 
 double parse_duration(const char* option, const std::string& text) {
-    double value = 0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
-    const double unit_s = seconds_of_unit({rest, static_cast<std::size_t>(text.data() + text.size() - rest)});
-    const double seconds = value * unit_s;
-    if (error != std::errc() || !(seconds > 0) || seconds > kLongest_s) {
+    const std::size_t digits = text.find_last_of("0123456789.") + 1;  // 0 if there is none
+    const auto value = scene::typed_number(std::string_view(text).substr(0, digits));
+    const double seconds = value.value_or(0) * seconds_of_unit(std::string_view(text).substr(digits));
+    if (!(seconds > 0) || seconds > kLongest_s) {
         throw UsageError(fmt::format("{} {}: allowed: a time above 0 such as 90s, 2m or 1.5h, at most 1000h", option,
                                      scene::excerpt(text)));
     }

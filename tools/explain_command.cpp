@@ -7,6 +7,7 @@
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
 #include "src/render/progressive.h"
+#include "tools/aov.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
 #include "tools/explain/explanation.h"
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 
 struct ExplainRequest {
     SceneArgument scene;
-    std::string crop, tracer, simd, json, statistics, passes, threads = "0";
+    std::string crop, tracer, simd, json, statistics, passes, aov, threads = "0";
     bool no_pilot = false, quiet = false;
 };
 
@@ -33,14 +34,6 @@ bool same_file(const fs::path& a, const fs::path& b) {
     return fs::equivalent(a, b, error) && !error;
 }
 
-// The same settings that `strata render` takes from the same words.
-render::Window window_of(const ExplainRequest& request, const LoadedScene& loaded) {
-    const scene::Film& film = loaded.scene.film;
-    if (!request.crop.empty()) return parse_crop("--crop", request.crop, film);
-    if (loaded.crop) return parse_crop(loaded.source + ": its --crop", *loaded.crop, film);
-    return {0, 0, film.width, film.height};
-}
-
 void check_json(const ExplainRequest& request, const LoadedScene& loaded) {
     if (request.json.empty()) return;
     for (const std::string& input : {loaded.source, request.statistics}) {
@@ -49,6 +42,7 @@ void check_json(const ExplainRequest& request, const LoadedScene& loaded) {
         }
     }
     image::check_replaceable(request.json);
+    keep_output_for(request.json);
 }
 
 int explain_command(const ExplainRequest& request) {
@@ -60,7 +54,7 @@ int explain_command(const ExplainRequest& request) {
         noise::pin_simd_target(*loaded.simd_target);
     }
     Explanation explanation;
-    explanation.window = window_of(request, loaded);
+    explanation.window = window_of(request.crop, loaded);
     explanation.tracer = !request.tracer.empty() ? request.tracer : loaded.tracer.value_or("fast");
     const render::Tracer tracer = parse_tracer(explanation.tracer);
     explanation.simd_target = noise::simd_target();
@@ -74,10 +68,11 @@ int explain_command(const ExplainRequest& request) {
         explanation.recorded = read_recorded(request.statistics, mark, count_rays(loaded.scene, explanation.window));
         if (request.passes.empty()) passes = static_cast<int>(explanation.recorded->passes);
     }
-    explanation.plan = make_plan(loaded.scene, tracer, passes);
-    explanation.prediction =
-        predict(loaded.scene, explanation.window,
-                {.tracer = tracer, .threads = threads, .passes = passes, .with_pilot = !request.no_pilot});
+    const std::vector<Aov> aovs = aovs_of(request.aov, loaded, passes);
+    explanation.plan = make_plan(loaded.scene, tracer, passes, aovs);
+    explanation.prediction = predict(
+        loaded.scene, explanation.window,
+        {.tracer = tracer, .threads = threads, .passes = passes, .aovs = aovs, .with_pilot = !request.no_pilot});
     if (!request.json.empty()) {
         const std::string text = explanation_json(explanation);
         image::replace_file(request.json, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
@@ -107,13 +102,15 @@ void add_explain_command(Command& program, int& exit_code) {
         ->type_name("TARGET");
     command->add_option("--passes", request->passes, "As for render: average so many passes; default 1")
         ->type_name("K");
+    command->add_option("--aov", request->aov, "As for render: also keep what pixels cost")->type_name("steps,evals");
     command->add_flag("--no-pilot", request->no_pilot, "Cast no rays: tell only what is known without");
     command
         ->add_option(
             "--stats", request->statistics,
             "What `strata render --stats` wrote of the same render: the actual costs beside the predicted ones")
         ->type_name("FILE.json");
-    command->add_option("--json", request->json, "Write the same as JSON")->type_name("FILE.json");
+    command->add_option("--json", request->json, "Write the same as JSON; - for standard output")
+        ->type_name("FILE.json");
     command->add_flag("--quiet", request->quiet, "No text");
     command->footer(
         "A pilot casts 1 % of the rays - at least 4096, or all; at most 262144, or 16384 of the reference tracer's -\n"

@@ -66,8 +66,8 @@ figures::Size parse_size(const std::string& name) {
 
 // The folder, made if need be; everything else that the figures need is there.
 void check_surroundings(const std::vector<Figure>& chosen, const fs::path& folder) {
-    if (std::ranges::any_of(chosen, &Figure::is_plot)) check_plotter();
     image::check_fonts();
+    if (std::ranges::any_of(chosen, &Figure::is_plot)) check_plotter();
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw UsageError(fmt::format("-o {}: {}", folder.string(), error.message()));
@@ -109,7 +109,7 @@ int figures_command(const FiguresRequest& request) {
                                        .quiet = request.quiet,
                                        .overwrite = request.overwrite};
     check_surroundings(chosen, options.folder);
-    if (makes_films(request)) find_program("ffmpeg", "ffmpeg");
+    if (makes_films(request)) find_program("ffmpeg", "ffmpeg", "video");
     render::cancel_on_signals(cancel);
     try {
         figures::make_figures(chosen, options, cancel);

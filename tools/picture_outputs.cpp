@@ -7,6 +7,7 @@
 #include <exception>
 #include <new>
 
+#include "src/image/stream_target.h"
 #include "tools/standard_output.h"
 
 namespace strata::tools {
@@ -104,6 +105,8 @@ bool PictureOutputs::finish() {
 
 bool PictureOutputs::finish_partial(const image::Metadata& metadata) {
     for_each([&](Output& output) {
+        // Whoever reads a stream could not tell a part from the whole.
+        if (image::stream_target(output.path)) return;
         const fs::path target = partial_path(output.path);
         output.stream->finish_partial(target, metadata);
         tell_written(target);

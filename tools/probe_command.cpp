@@ -17,11 +17,13 @@
 #include "src/render/estimator.h"
 #include "src/sample/shutter.h"
 #include "src/scene/key_text.h"
+#include "src/scene/typed_number.h"
 #include "src/scene/validate.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
 #include "tools/scene_argument.h"
 #include "tools/standard_output.h"
+#include "tools/stream_input.h"
 
 namespace strata::tools {
 
@@ -41,9 +43,9 @@ std::optional<std::vector<double>> numbers_of(const std::string& line) {
     std::istringstream words(line);
     std::vector<double> numbers;
     for (std::string word; words >> word;) {
-        char* end = nullptr;
-        numbers.push_back(std::strtod(word.c_str(), &end));
-        if (end != word.c_str() + word.size() || !std::isfinite(numbers.back())) return std::nullopt;
+        const auto number = scene::typed_number(word);
+        if (!number) return std::nullopt;
+        numbers.push_back(*number);
     }
     return numbers;
 }
@@ -52,6 +54,9 @@ std::optional<std::vector<double>> numbers_of(const std::string& line) {
 // Other lines, but for empty ones, are errors, as is one that `use` throws BadLine for.
 template <class Use>
 void each_line(std::size_t least, std::size_t most, const char* allowed, const Use& use) {
+    if (standard_input_is_read()) {
+        throw UsageError("-: the scene came from standard input, where the points are to come from; allowed: a file");
+    }
     std::string line;
     for (std::size_t row = 1; std::getline(std::cin, line); ++row) {
         const auto numbers = numbers_of(line);

@@ -14,6 +14,8 @@
 #include <string_view>
 #include <utility>
 
+#include "tools/installer.h"
+
 extern char** environ;
 
 namespace strata::tools {
@@ -94,7 +96,10 @@ int wait_for(pid_t child, rusage& usage) {
 
 }  // namespace
 
-fs::path find_program(const std::string& name, const std::string& debian_package) {
+namespace {
+
+// Empty if it is not there.
+fs::path search_path(const std::string& name) {
     const char* path = std::getenv("PATH");
     std::string_view folders = path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin";
     while (!folders.empty()) {
@@ -103,6 +108,15 @@ fs::path find_program(const std::string& name, const std::string& debian_package
         if (::access(candidate.c_str(), X_OK) == 0 && fs::is_regular_file(candidate)) return candidate;
         folders.remove_prefix(std::min(end + 1, folders.size()));
     }
+    return {};
+}
+
+}  // namespace
+
+fs::path find_program(const std::string& name, const std::string& debian_package, const std::string& section) {
+    fs::path found = search_path(name);
+    if (found.empty() && install_packages(section)) found = search_path(name);
+    if (!found.empty()) return found;
     throw ProcessError(fmt::format("{} is not installed: Debian has it in the package {}", name, debian_package));
 }
 

@@ -16,8 +16,11 @@ class ProcessError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// The program's path by PATH. Throws ProcessError, naming the Debian package that has it, when it is not there.
-std::filesystem::path find_program(const std::string& name, const std::string& debian_package);
+// The program's path by PATH. When it is not there, its section of tools/setup/packages.txt is installed, if that can
+// be (installer.h): so ask only for what is certain to be used, after all else is checked. Throws ProcessError, naming
+// the Debian package that has it, when it is not there then either.
+std::filesystem::path find_program(const std::string& name, const std::string& debian_package,
+                                   const std::string& section);
 
 // A program that ended well.
 struct ProgramRun {

@@ -141,8 +141,8 @@ void add_render_command(Command& program, int& exit_code) {
     request->scene.add_to(*command);
     command
         ->add_option("-o,--output", request->outputs,
-                     "A picture to write, by extension .exr, .png, .tif or .jpg (may be repeated); default SCENE.exr "
-                     "and SCENE.png in the current folder")
+                     "A picture to write, by extension .exr, .png, .tif or .jpg (may be repeated); - for standard "
+                     "output; default SCENE.exr and SCENE.png in the current folder")
         ->type_name("FILE")
         ->repeated();
     command
@@ -161,7 +161,11 @@ void add_render_command(Command& program, int& exit_code) {
         ->type_name("NAME");
     command->add_option("--simd", request->simd, "avx512, avx2, sse4 or scalar; default the best that is here")
         ->type_name("TARGET");
-    command->add_option("--format", request->format, "EXR channels: half or float; default half")->type_name("NAME");
+    command
+        ->add_option("--format", request->format,
+                     "EXR channels: half or float; default half. Or what goes to standard output or a pipe: exr (the "
+                     "default), png, tif or jpg")
+        ->type_name("NAME");
     command->add_flag("--tiled", request->tiled,
                       "EXR in tiles of 64x64, as from 4096 pixels on either side without being asked");
     command
@@ -192,8 +196,11 @@ void add_render_command(Command& program, int& exit_code) {
         "EXR and TIFF keep the crop as data window in the frame; PNG and JPEG hold the crop alone.\n"
         "One pass is written while it is rendered, to a hidden file that gets its name when it is whole: memory does\n"
         "not grow with the height. Several passes, and JPEG, are held whole.\n"
+        "Into standard output (-) and named pipes a picture goes when it is whole, and nothing of one that was "
+        "interrupted;\nmessages go to standard error then. `-o png:-` is `-o - --format png`. SCENE - is read from "
+        "standard input.\n"
         "A picture given as SCENE is rendered again as its metadata say, --crop, --aov, --format, --tiled, "
-        "--tracer, --simd and --passes included.\n"
+        "--tracer, --simd and --passes included; at another --size a crop shows the same part of the frame.\n"
         "The picture of K passes is the same whatever stopped it at K: its metadata hold K, and --passes K makes it "
         "again."
         "\nThe noise told from differences leaves out what all passes share: the bias, of order 1/N^2, of jittered and "

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <system_error>
 
 #include "noise/simd_target.h"
@@ -12,9 +11,11 @@
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
 #include "src/image/read.h"
+#include "src/image/stream_target.h"
 #include "src/image/text.h"
 #include "src/scene/enum_names.h"
 #include "src/scene/key_text.h"
+#include "src/scene/typed_number.h"
 #include "tools/duration.h"
 #include "tools/errors.h"
 #include "tools/picture_metadata.h"
@@ -38,14 +39,27 @@ std::string choose(const std::string& given, const std::optional<std::string>& r
 image::ExrFormat parse_format(const std::string& name) {
     if (name == "half") return image::ExrFormat::half;
     if (name == "float") return image::ExrFormat::floating;
-    throw UsageError(fmt::format("--format {}: allowed: half, float", name));
+    throw UsageError(fmt::format("--format {}: allowed: half, float; exr, png, tif, jpg of a pipe or standard output",
+                                 scene::excerpt(name)));
 }
 
-render::Window choose_window(const RenderRequest& request, const LoadedScene& loaded) {
-    const scene::Film& film = loaded.scene.film;
-    if (!request.crop.empty()) return parse_crop("--crop", request.crop, film);
-    if (loaded.crop) return parse_crop(fmt::format("{}: its --crop", loaded.source), *loaded.crop, film);
-    return {0, 0, film.width, film.height};
+// What --format says of EXR channels; nothing where it names the format of a stream.
+std::string channels_format(const RenderRequest& request) {
+    return image::known_format("." + request.format) ? "" : request.format;
+}
+
+// A stream whose name does not tell its format gets that of --format in front: "png:-".
+fs::path with_format(const fs::path& path, const std::string& format) {
+    const auto stream = image::stream_target(path);
+    if (!stream || stream->format || !image::known_format("." + format)) return path;
+    return format + ":" + path.string();
+}
+
+void check_stream_format(const RenderRequest& request) {
+    const auto is_stream = [](const std::string& path) { return image::stream_target(path).has_value(); };
+    if (!image::known_format("." + request.format) || std::ranges::any_of(request.outputs, is_stream)) return;
+    throw UsageError(
+        fmt::format("--format {}: allowed with -o - or a pipe; a file's extension tells its format", request.format));
 }
 
 // Bits depend on the SIMD target: a picture is rendered again on its own, where that is here.
@@ -76,13 +90,10 @@ void check_memory(const render::Window& window, const render::PassGoal& goal) {
 
 double parse_target(const std::string& text) {
     constexpr double kLeast = 1e-9, kMost = 1e6;
-    double value = 0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || rest != text.data() + text.size() || !(value >= kLeast && value <= kMost)) {
-        throw UsageError(
-            fmt::format("--target-rmse {}: allowed: a linear radiance, {} to {}", scene::excerpt(text), kLeast, kMost));
-    }
-    return value;
+    const auto value = scene::typed_number(text);
+    if (value && *value >= kLeast && *value <= kMost) return *value;
+    throw UsageError(
+        fmt::format("--target-rmse {}: allowed: a linear radiance, {} to {}", scene::excerpt(text), kLeast, kMost));
 }
 
 render::PassGoal choose_goal(const RenderRequest& request, const LoadedScene& loaded) {
@@ -124,6 +135,7 @@ void check_output(const fs::path& path, const Job& job) {
     } catch (const image::ImageError& error) {
         throw UsageError(error.what());
     }
+    if (image::stream_target(path)) return image::check_writable(path);
     if (same_file(path, job.loaded.source) && !image::is_picture(path)) {
         throw UsageError(fmt::format("{}: this output is the scene file itself", path.string()));
     }
@@ -134,7 +146,8 @@ void check_output(const fs::path& path, const Job& job) {
 // Each file once, however often and by whatever name it was asked for.
 std::vector<fs::path> output_paths(const RenderRequest& request, const Job& job) {
     const std::string& name = job.loaded.name;
-    std::vector<fs::path> asked(request.outputs.begin(), request.outputs.end());
+    std::vector<fs::path> asked;
+    for (const std::string& typed : request.outputs) asked.push_back(with_format(typed, request.format));
     if (asked.empty()) asked = {name + ".exr", name + ".png"};
     std::vector<fs::path> paths;
     for (const fs::path& path : asked) {
@@ -143,16 +156,15 @@ std::vector<fs::path> output_paths(const RenderRequest& request, const Job& job)
             paths.push_back(path);
         }
     }
+    if (std::ranges::count_if(paths, image::is_standard_output) > 1) {
+        throw UsageError("-o: two pictures for standard output, allowed: one");
+    }
     return paths;
 }
 
 void choose_aovs(const RenderRequest& request, Job& job) {
-    const bool given = !request.aov.empty();
-    if (!given && !job.loaded.aovs) return;
-    job.aovs = parse_aovs(given ? request.aov : *job.loaded.aovs);
-    if (job.goal.passes > 1) {
-        throw UsageError("--aov: allowed with one pass; not with --passes, --target-rmse or --time-limit");
-    }
+    job.aovs = aovs_of(request.aov, job.loaded, job.goal.passes);
+    if (job.aovs.empty()) return;
     image::check_fonts();
     job.write.exr_extra = aov_channels(job.aovs);
 }
@@ -173,6 +185,7 @@ void check_statistics(const Job& job) {
     if (job.statistics.empty()) return;
     image::check_replaceable(job.statistics);
     const auto is_statistics = [&](const fs::path& path) {
+        if (image::is_standard_output(path) && image::is_standard_output(job.statistics)) return true;
         return same_file(path, job.statistics) || same_file(partial_path(path), job.statistics);
     };
     if (is_statistics(job.loaded.source) || std::ranges::any_of(job.outputs, is_statistics)) {
@@ -183,7 +196,8 @@ void check_statistics(const Job& job) {
 }  // namespace
 
 fs::path aov_path(const Job& job, Aov aov) {
-    fs::path path = job.outputs.front();
+    const bool is_stream = image::stream_target(job.outputs.front()).has_value();
+    fs::path path = is_stream ? fs::path(job.loaded.name + ".png") : job.outputs.front();
     return path.replace_extension(fmt::format(".{}.png", name_of(aov)));
 }
 
@@ -199,10 +213,11 @@ Job prepare(const RenderRequest& request) {
     job.tile = parse_integer("--tile", request.tile, 1, kLargestTile);
     job.loaded = request.scene.load();
     choose_simd_target(request, job.loaded);
-    job.window = choose_window(request, job.loaded);
+    job.window = window_of(request.crop, job.loaded);
     job.tracer = choose(request.tracer, job.loaded.tracer, "fast");
     parse_tracer(job.tracer);
-    const std::string format = choose(request.format, job.loaded.exr_format, "half");
+    check_stream_format(request);
+    const std::string format = choose(channels_format(request), job.loaded.exr_format, "half");
     const bool is_tiled = request.tiled || job.loaded.is_tiled;
     job.write = {.exposure = job.loaded.scene.film.exposure,
                  .exr_format = parse_format(format),
@@ -214,6 +229,8 @@ Job prepare(const RenderRequest& request) {
     check_aov_paths(job);
     job.statistics = request.statistics;
     check_statistics(job);
+    for (const fs::path& path : job.outputs) keep_output_for(path);
+    keep_output_for(job.statistics);
     job.metadata = picture_metadata(job.loaded.scene, job.window, job.tracer, format);
     if (is_tiled) job.metadata.set("strata:tiled", "asked for");
     std::string aovs;

@@ -5,21 +5,25 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <cstdint>
 #include <filesystem>
 
 #include "noise/simd_target.h"
+#include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/metadata.h"
 #include "src/image/read.h"
 #include "src/scene/builtin.h"
 #include "src/scene/key_text.h"
 #include "src/scene/override.h"
+#include "src/scene/scene_text.h"
 #include "src/scene/suggest.h"
 #include "src/scene/toml_reader.h"
+#include "src/scene/typed_number.h"
 #include "src/scene/validate.h"
 #include "tools/errors.h"
 #include "tools/standard_output.h"
+#include "tools/stream_input.h"
 
 namespace strata::tools {
 
@@ -32,11 +36,25 @@ std::optional<std::array<int, kCount>> parse_integers(std::string_view text, cha
     for (std::size_t i = 0; i < kCount; ++i) {
         const std::size_t end = i + 1 < kCount ? text.find(separator) : text.size();
         if (end == std::string_view::npos) return std::nullopt;
-        const auto [rest, error] = std::from_chars(text.data(), text.data() + end, values[i]);
-        if (error != std::errc() || rest != text.data() + end || end == 0) return std::nullopt;
+        const auto value = scene::typed_integer<int>(text.substr(0, end));
+        if (!value) return std::nullopt;
+        values[i] = *value;
         text.remove_prefix(std::min(text.size(), end + 1));
     }
     return values;
+}
+
+struct Span {
+    int begin, end;
+};
+
+// The part of `after` pixels that a span was of `before`: spans that touched still touch. One pixel at least.
+Span scaled(const Span& span, int before, int after) {
+    const auto at = [&](int x) {
+        return static_cast<int>((2 * std::int64_t{x} * after + before) / (2 * std::int64_t{before}));
+    };
+    const int begin = std::min(at(span.begin), after - 1);
+    return {begin, std::max(at(span.end), begin + 1)};
 }
 
 std::string unknown_scene(const std::string& name) {
@@ -48,18 +66,18 @@ std::string unknown_scene(const std::string& name) {
     return message;
 }
 
-LoadedScene from_picture(const std::filesystem::path& path) {
+LoadedScene from_picture(const std::filesystem::path& path, const std::string& source) {
     const auto text = image::read_metadata(path, image::kSceneKey);
-    if (!text) throw UsageError(path.string() + ": this picture does not say how it was made: strata did not write it");
+    if (!text) throw UsageError(source + ": this picture does not say how it was made: strata did not write it");
     // The scene may still be right, and is how the picture is made anew.
     if (image::read_facts(path).integrity == image::Integrity::damaged) {
         print_error(
             fmt::format("warning: {} is damaged: its bytes are not those that were written, and what it says of "
                         "its scene may be wrong",
-                        path.string()));
+                        source));
     }
     LoadedScene loaded;
-    loaded.scene = scene::read_scene(*text, path.string());
+    loaded.scene = scene::read_scene(*text, source);
     loaded.name = path.stem().string();
     // Rendered again, an interrupted picture becomes whole.
     constexpr std::string_view kPartial = ".partial";
@@ -78,7 +96,7 @@ LoadedScene from_picture(const std::filesystem::path& path) {
 
 // Only .toml goes: a dot may be part of a name.
 std::string name_of_file(const std::filesystem::path& path) {
-    return (path.extension() == ".toml" ? path.stem() : path.filename()).string();
+    return (image::extension_of(path) == ".toml" ? path.stem() : path.filename()).string();
 }
 
 // Options that stand for a scene key. Their values go through the key's own reader, which knows what is allowed.
@@ -134,7 +152,9 @@ void SceneArgument::add_scene_to(Command& command, const std::string& descriptio
 
 void SceneArgument::add_to(Command& command, const char* name, std::span<const std::string_view> own) {
     command
-        .add_option(name, scene_, "A scene file, a built-in scene (`strata scenes`), or a picture that strata wrote")
+        .add_option(
+            name, scene_,
+            "A scene file, a built-in scene (`strata scenes`), or a picture that strata wrote; - reads standard input")
         ->capture_default_str();
     add_changes(command);
     key_values_.resize(kKeyOptions.size());
@@ -149,7 +169,9 @@ void SceneArgument::add_to(Command& command, const char* name, std::span<const s
 }
 
 LoadedScene SceneArgument::find() const {
-    const std::filesystem::path path(scene_);
+    const auto spooled = spool_stream(scene_);
+    const std::filesystem::path path = spooled.value_or(scene_);
+    const std::string source = scene_ == "-" ? "standard input" : scene_;
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     const bool exists = std::filesystem::exists(status);
@@ -162,12 +184,13 @@ LoadedScene SceneArgument::find() const {
     } else if (!exists && path.filename() == path && !path.has_extension()) {
         throw UsageError(unknown_scene(scene_));
     } else if (image::is_picture(path)) {
-        loaded = from_picture(path);
+        loaded = from_picture(path, source);
     } else {
-        loaded.scene = scene::load_scene(scene_);
+        loaded.scene = scene::read_scene(scene::file_text(path.string()), source);
         loaded.name = name_of_file(path);
     }
-    loaded.source = scene_;
+    if (spooled) loaded.name = "stdin";
+    loaded.source = source;
     return loaded;
 }
 
@@ -179,6 +202,7 @@ LoadedScene SceneArgument::load() const {
         throw UsageError(error.what());
     }
     scene::Scene& scene = loaded.scene;
+    loaded.recorded_film = scene.film;
     for (const std::string& assignment : sets_) scene::apply_override(scene, assignment);
     if (size_) {
         const auto size = parse_integers<2>(*size_, 'x');
@@ -216,6 +240,17 @@ render::Window parse_crop(const std::string& origin, const std::string& text, co
                                      origin, scene::excerpt(text), film.width, film.height));
     }
     return {(*c)[0], (*c)[1], (*c)[2], (*c)[3]};
+}
+
+render::Window window_of(const std::string& crop, const LoadedScene& loaded) {
+    const scene::Film& film = loaded.scene.film;
+    if (!crop.empty()) return parse_crop("--crop", crop, film);
+    if (!loaded.crop) return {0, 0, film.width, film.height};
+    const scene::Film& before = loaded.recorded_film;
+    const render::Window w = parse_crop(loaded.source + ": its --crop", *loaded.crop, before);
+    const Span across = scaled({w.x0, w.x1}, before.width, film.width);
+    const Span down = scaled({w.y0, w.y1}, before.height, film.height);
+    return {across.begin, down.begin, across.end, down.end};
 }
 
 glm::ivec2 parse_pixel(const std::string& text, const scene::Film& film) {

@@ -22,6 +22,7 @@ struct LoadedScene {
     std::string source;  // for messages
     std::optional<std::string> crop, tracer, exr_format, simd_target, passes, aovs;  // as recorded in a picture
     bool is_tiled = false;
+    scene::Film recorded_film;  // of the scene before --set and --size: what `crop` refers to
 };
 
 class SceneArgument {
@@ -55,6 +56,10 @@ int parse_integer(const char* option, const std::string& text, int least, int mo
 
 // "x0,y0,x1,y1", half-open, inside the frame. origin is what the text was given to, for the message. Throws UsageError.
 render::Window parse_crop(const std::string& origin, const std::string& text, const scene::Film& film);
+
+// What is rendered of the frame: the crop of --crop, empty if not given; else the one that the picture recorded, which
+// shows the same part of a frame of another size; else all. Throws UsageError.
+render::Window window_of(const std::string& crop, const LoadedScene& loaded);
 
 // "x,y" inside the frame. Throws UsageError.
 glm::ivec2 parse_pixel(const std::string& text, const scene::Film& film);

@@ -1,10 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,7 +9,10 @@
 #include "noise/simd_target.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
+#include "src/render/status_line.h"
+#include "src/scene/key_text.h"
 #include "src/scene/suggest.h"
+#include "src/scene/typed_number.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
 #include "tools/scene_argument.h"
@@ -54,12 +54,8 @@ std::vector<std::string> parse_groups(const std::string& text) {
 }
 
 std::uint64_t parse_seed(const std::string& text) {
-    std::uint64_t seed = 0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-    if (error != std::errc() || rest != text.data() + text.size()) {
-        throw UsageError(fmt::format("--seed {}: allowed: an integer from 0 to 2^64 - 1", text));
-    }
-    return seed;
+    if (const auto seed = scene::typed_integer<std::uint64_t>(text)) return *seed;
+    throw UsageError(fmt::format("--seed {}: allowed: an integer from 0 to 2^64 - 1", scene::excerpt(text)));
 }
 
 // The files to write, their folder made and their writing tried, before any work.
@@ -76,29 +72,9 @@ std::vector<Output> outputs_of(const StabilityRequest& request) {
     }
     if (!request.json.empty()) outputs.push_back({request.json, stability::json_table});
     for (const Output& output : outputs) image::check_replaceable(output.path);
+    keep_output_for(request.json);
     return outputs;
 }
-
-// A line on standard error that is overwritten, on a terminal only.
-class CaseLine {
-  public:
-    explicit CaseLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
-    ~CaseLine() { clear(); }
-    CaseLine(const CaseLine&) = delete;
-    CaseLine& operator=(const CaseLine&) = delete;
-
-    void show(std::size_t done, std::size_t total, const stability::Case& next) const {
-        if (!shown_) return;
-        std::fputs(fmt::format("\r\033[K{}/{}  {}: {}", done, total, next.group, next.name).c_str(), stderr);
-        std::fflush(stderr);
-    }
-    void clear() const {
-        if (shown_) std::fputs("\r\033[K", stderr);
-    }
-
-  private:
-    bool shown_;
-};
 
 int stability_command(const StabilityRequest& request) {
     static render::CancelToken cancel;
@@ -109,10 +85,11 @@ int stability_command(const StabilityRequest& request) {
     const std::vector<Output> outputs = outputs_of(request);
     const stability::Heading heading{fmt::format("{}", fmt::join(noise::simd_targets(), ", ")), settings.seed,
                                      settings.fast};
-    const CaseLine line(request.quiet);
+    render::StatusLine line;
     const std::vector<stability::Row> rows = stability::run_cases(
-        cases, settings, threads,
-        [&](std::size_t done, std::size_t total, const stability::Case& next) { line.show(done, total, next); });
+        cases, settings, threads, [&](std::size_t done, std::size_t total, const stability::Case& next) {
+            if (!request.quiet) line.show(fmt::format("{}/{}  {}: {}", done, total, next.group, next.name));
+        });
     line.clear();
     if (!request.quiet || stability::failures(rows) > 0) print_out(stability::text_table(rows));
     if (cancel.requested()) {
@@ -135,7 +112,8 @@ void add_stability_command(Command& program, int& exit_code) {
     auto request = std::make_shared<StabilityRequest>();
     command->add_option("-o,--output", request->folder, "Folder to write stability.md and stability.json to")
         ->type_name("FOLDER");
-    command->add_option("--json", request->json, "Write the JSON to this file")->type_name("FILE");
+    command->add_option("--json", request->json, "Write the JSON to this file; - for standard output")
+        ->type_name("FILE");
     command
         ->add_option("--only", request->groups,
                      fmt::format("Only these groups, separated by commas: {}", fmt::join(stability::groups(), ", ")))

@@ -122,7 +122,9 @@ void add_strip_command(Command& program, int& exit_code) {
         ->type_name("VALUE");
     command->add_flag("--rmse", request->rmse, "The root mean square error against --reference under each picture");
     command->add_flag("--parts", request->parts, "Also write what is shown as float EXR: NAME-1.exr, NAME-2.exr, ...");
-    command->add_option("-o,--output", request->output, "The strip: .png, .jpg or .tif; default strip.png")
+    command
+        ->add_option("-o,--output", request->output,
+                     "The strip: .png, .jpg or .tif, or - for standard output; default strip.png")
         ->type_name("FILE");
     command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
         ->type_name("n")

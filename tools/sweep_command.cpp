@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "src/render/cancel.h"
 #include "tools/commands.h"
@@ -17,28 +18,22 @@ namespace strata::tools {
 
 namespace {
 
-// Each option's texts, as CLI11 collects them.
+// The options' texts; one that does not add up has its last.
 struct AxisTexts {
-    std::vector<std::string> N, m, estimator, time_order, seed, axis, rows, columns;
+    std::optional<std::string> N, m, estimator, time_order, seed, rows, columns;
+    std::vector<std::string> axis;
 };
-
-std::vector<AxisOption> with_origin(const char* origin, const std::vector<std::string>& texts) {
-    std::vector<AxisOption> options;
-    options.reserve(texts.size());
-    for (const std::string& text : texts) options.push_back({origin, text});
-    return options;
-}
 
 AxisRequest axis_request(const AxisTexts& texts) {
     AxisRequest request;
-    for (const auto& [origin, list] :
+    for (const auto& [origin, text] :
          {std::pair{"--N", &texts.N}, std::pair{"--m", &texts.m}, std::pair{"--estimator", &texts.estimator},
           std::pair{"--time-order", &texts.time_order}, std::pair{"--seed", &texts.seed}}) {
-        for (const AxisOption& option : with_origin(origin, *list)) request.lists.push_back(option);
+        if (*text) request.lists.push_back({origin, **text});
     }
-    request.anywhere = with_origin("--axis", texts.axis);
-    request.rows = with_origin("--rows", texts.rows);
-    request.columns = with_origin("--columns", texts.columns);
+    for (const std::string& text : texts.axis) request.anywhere.push_back({"--axis", text});
+    if (texts.rows) request.rows.push_back({"--rows", *texts.rows});
+    if (texts.columns) request.columns.push_back({"--columns", *texts.columns});
     return request;
 }
 
@@ -88,20 +83,20 @@ int sweep_command(const SweepRequest& request) {
     return render::cancelling_signal() != 0 ? kExitSignal + render::cancelling_signal() : 0;
 }
 
-void add_axis_option(Command& command, const char* names, std::vector<std::string>& texts, const char* type,
-                     const char* meaning) {
-    command.add_option(names, texts, meaning)->type_name(type)->repeated();
-}
-
 void add_axis_options(Command& command, AxisTexts& texts) {
-    add_axis_option(command, "-N,--N", texts.N, "N,...", "Samples a side, as 1,2,3,10: the columns");
-    add_axis_option(command, "-m,--m", texts.m, "M,...", "Orders of the B-spline filter, as 1,4,15: the rows");
-    add_axis_option(command, "--estimator", texts.estimator, "NAME,...", "Estimators, as none,stratified,sobol");
-    add_axis_option(command, "--time-order", texts.time_order, "L,...", "Orders of the B-spline filter in time");
-    add_axis_option(command, "--seed", texts.seed, "S,...", "Seeds of the sample positions");
-    add_axis_option(command, "--axis", texts.axis, "KEY=V,...", "Any scene key, as octaves=2,4,8 (may be repeated)");
-    add_axis_option(command, "--rows", texts.rows, "KEY=V,...", "The same, as rows");
-    add_axis_option(command, "--columns", texts.columns, "KEY=V,...", "The same, as columns");
+    const auto add = [&](const char* names, std::optional<std::string>& text, const char* type, const char* meaning) {
+        command.add_option(names, text, meaning)->type_name(type);
+    };
+    add("-N,--N", texts.N, "N,...", "Samples a side, as 1,2,3,10: the columns");
+    add("-m,--m", texts.m, "M,...", "Orders of the B-spline filter, as 1,4,15: the rows");
+    add("--estimator", texts.estimator, "NAME,...", "Estimators, as none,stratified,sobol");
+    add("--time-order", texts.time_order, "L,...", "Orders of the B-spline filter in time");
+    add("--seed", texts.seed, "S,...", "Seeds of the sample positions");
+    command.add_option("--axis", texts.axis, "Any scene key, as octaves=2,4,8 (may be repeated)")
+        ->type_name("KEY=V,...")
+        ->repeated();
+    add("--rows", texts.rows, "KEY=V,...", "The same, as rows");
+    add("--columns", texts.columns, "KEY=V,...", "The same, as columns");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "src/image/image_error.h"
+#include "src/image/stream_target.h"
 
 namespace strata::image {
 namespace {
@@ -22,18 +23,25 @@ constexpr std::array<std::pair<const char*, Format>, 6> kExtensions{{
     {".jpeg", Format::jpeg},
 }};
 
-std::string lower_case(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
-}
-
 }  // namespace
 
-Format format_of(const std::filesystem::path& path) {
-    const std::string extension = lower_case(path.extension().string());
+std::string extension_of(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return extension;
+}
+
+std::optional<Format> known_format(std::string_view extension) {
     for (const auto& [known, format] : kExtensions)
         if (extension == known) return format;
+    return std::nullopt;
+}
+
+Format format_of(const std::filesystem::path& path) {
+    const std::string extension = extension_of(path);
+    if (const auto format = known_format(extension)) return *format;
+    if (const auto stream = stream_target(path)) return stream->format.value_or(Format::exr);
     const std::string found =
         extension.empty() ? "it has no extension" : fmt::format("its extension is \"{}\"", path.extension().string());
     throw ImageError(

@@ -43,6 +43,11 @@ void check_target(const fs::path& path) {
     if (::access(path.c_str(), W_OK) != 0) fail(path, system_reason(errno));
 }
 
+void check_stream(const fs::path& path, const StreamTarget& stream, bool is_picture) {
+    const std::string problem = stream_problem(stream, is_picture);
+    if (!problem.empty()) fail(path, problem);
+}
+
 void check_folder(const fs::path& path) {
     const fs::path folder = folder_of(path);
     std::error_code error;
@@ -55,7 +60,14 @@ void check_folder(const fs::path& path) {
 
 }  // namespace
 
-OutputFile::OutputFile(const fs::path& target) : target_(resolve_links(target)) {
+OutputFile::OutputFile(const fs::path& target) : target_(resolve_links(target)), stream_(stream_target(target)) {
+    if (stream_) {
+        target_ = target;
+        descriptor_ = open_memory_file();
+        if (descriptor_ < 0) fail(target_, system_reason(errno));
+        hidden_ = fmt::format("/proc/self/fd/{}", descriptor_);
+        return;
+    }
     static std::atomic<unsigned> counter{0};
     do {
         // Short, so that it fits wherever the target does; hidden, so that a glob for pictures does not meet it.
@@ -67,7 +79,7 @@ OutputFile::OutputFile(const fs::path& target) : target_(resolve_links(target)) 
 
 OutputFile::~OutputFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
-    if (!is_in_place_) ::unlink(hidden_.c_str());
+    if (!is_in_place_ && !stream_) ::unlink(hidden_.c_str());
 }
 
 void OutputFile::write_at(std::int64_t offset, std::span<const unsigned char> bytes) {
@@ -80,7 +92,14 @@ void OutputFile::write_at(std::int64_t offset, std::span<const unsigned char> by
     }
 }
 
+void OutputFile::put_into_stream() {
+    const int error = copy_to_stream(descriptor_, *stream_);
+    if (error != 0) fail(target_, system_reason(error));
+    is_in_place_ = true;
+}
+
 void OutputFile::put_in_place() {
+    if (stream_) return put_into_stream();
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
     // Some file systems report a full disk only here.
@@ -91,10 +110,12 @@ void OutputFile::put_in_place() {
 
 void check_writable(const fs::path& path) {
     format_of(path);
+    if (const auto stream = stream_target(path)) return check_stream(path, *stream, true);
     check_replaceable(path);
 }
 
 void check_replaceable(const fs::path& path) {
+    if (const auto stream = stream_target(path)) return check_stream(path, *stream, false);
     if (!path.has_filename()) fail(path, "it names no file");
     check_folder(path);
     check_target(path);

@@ -3,12 +3,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
+
+#include "src/image/stream_target.h"
 
 namespace strata::image {
 
 // Whether a picture can be written to `path`, found out before it is rendered: the extension is known, the folder
-// exists and takes a new file (one is made there and removed), `path` is free or a regular file that may be written.
+// exists and takes a new file (one is made there and removed), `path` is free, a regular file that may be written, or a
+// stream (stream_target.h) that is no terminal.
 // Throws ImageError otherwise.
 void check_writable(const std::filesystem::path& path);
 
@@ -19,7 +23,8 @@ void check_replaceable(const std::filesystem::path& path);
 // Removed by the destructor unless it is in place. All throw ImageError with the system's reason.
 class OutputFile {
   public:
-    // A symbolic link stays one; its target is what is replaced.
+    // A symbolic link stays one; its target is what is replaced. What goes to a stream is held in memory until it is
+    // put in place: written out.
     explicit OutputFile(const std::filesystem::path& target);
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
@@ -31,7 +36,10 @@ class OutputFile {
     const std::filesystem::path& hidden_path() const { return hidden_; }
 
   private:
+    void put_into_stream();
+
     std::filesystem::path target_;
+    std::optional<StreamTarget> stream_;
     std::filesystem::path hidden_;
     int descriptor_ = -1;
     bool is_in_place_ = false;

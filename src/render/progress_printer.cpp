@@ -1,7 +1,5 @@
 #include "src/render/progress_printer.h"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
 
@@ -36,18 +34,13 @@ bool predicted_long(const Progress& progress) {
     return progress.seconds >= kPredictionBasis_s && progress.predicted_seconds() > kLongRender_s;
 }
 
-ProgressPrinter::ProgressPrinter(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
-
-ProgressPrinter::~ProgressPrinter() { clear(); }
+ProgressPrinter::ProgressPrinter(bool quiet) : quiet_(quiet) {}
 
 ProgressCallback ProgressPrinter::callback() {
     return [this](const Progress& progress) { show(progress); };
 }
 
-void ProgressPrinter::clear() {
-    if (line_shown_) std::fputs("\r\033[K", stderr);
-    line_shown_ = false;
-}
+void ProgressPrinter::clear() { line_.clear(); }
 
 void ProgressPrinter::show(const Progress& progress) {
     if (quiet_) return;
@@ -56,10 +49,7 @@ void ProgressPrinter::show(const Progress& progress) {
         std::fprintf(stderr, "This render will take about %s.\n", duration_text(progress.predicted_seconds()).c_str());
         warned_ = true;
     }
-    if (!terminal_) return;
-    std::fprintf(stderr, "\r\033[K%s", progress_line(progress).c_str());
-    std::fflush(stderr);
-    line_shown_ = true;
+    line_.show(progress_line(progress));
 }
 
 }  // namespace strata::render

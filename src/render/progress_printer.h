@@ -1,10 +1,11 @@
-// Shows progress on stderr: a line rewritten in place if that is a terminal, and once, wherever it goes, a warning if
-// the render will be long.
+// Shows progress on stderr: a line rewritten in place where that can be (status_line.h), and once, wherever it goes, a
+// warning if the render will be long.
 #pragma once
 
 #include <string>
 
 #include "src/render/progress.h"
+#include "src/render/status_line.h"
 
 namespace strata::render {
 
@@ -18,9 +19,6 @@ class ProgressPrinter {
   public:
     // quiet: neither line nor warning.
     explicit ProgressPrinter(bool quiet);
-    ~ProgressPrinter();  // clears the line
-    ProgressPrinter(const ProgressPrinter&) = delete;
-    ProgressPrinter& operator=(const ProgressPrinter&) = delete;
 
     // A callback for one render at a time; the printer must outlive it.
     ProgressCallback callback();
@@ -31,8 +29,7 @@ class ProgressPrinter {
     void show(const Progress& progress);
 
     bool quiet_;
-    bool terminal_;
-    bool line_shown_ = false;
+    StatusLine line_;
     bool warned_ = false;
 };
 

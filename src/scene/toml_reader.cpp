@@ -5,7 +5,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <span>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "src/scene/key_text.h"
 #include "src/scene/scene_text.h"
 #include "src/scene/suggest.h"
+#include "src/scene/typed_value.h"
 
 namespace strata::scene {
 
@@ -267,14 +267,6 @@ MaybeFault read_into(Scene& scene, std::string_view text) {
     return read_entries(std::get<toml::table>(parsed), describe(scene));
 }
 
-bool is_bare_word(std::string_view text) {
-    const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
-    const auto is_part = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) || c == ' ' || c == '-' || c == '_' || c == '.';
-    };
-    return !text.empty() && is_letter(text.front()) && std::all_of(text.begin(), text.end(), is_part);
-}
-
 }  // namespace
 
 Scene read_scene(std::string_view text, std::string_view source_name) {
@@ -285,16 +277,16 @@ Scene read_scene(std::string_view text, std::string_view source_name) {
 
 Scene load_scene(const std::string& path) { return read_scene(file_text(path), path); }
 
-void assign_value(const Key& key, std::string_view toml_value) {
+void assign_value(const Key& key, std::string_view typed) {
     constexpr std::string_view kName = "value";
-    auto parsed = parse(fmt::format("{} = {}", kName, toml_value));
-    if (std::holds_alternative<Fault>(parsed) && is_bare_word(toml_value)) {
-        parsed = parse(fmt::format("{} = {}", kName, quoted(toml_value)));
+    auto parsed = parse(fmt::format("{} = {}", kName, toml_of_typed(key, typed)));
+    if (std::holds_alternative<Fault>(parsed) && is_bare_word(typed)) {
+        parsed = parse(fmt::format("{} = {}", kName, quoted(typed)));
     }
     const auto* table = std::get_if<toml::table>(&parsed);
     // A line break in the value could start further keys.
     if (!table || table->size() != 1) {
-        throw SceneError(complaint(key, "not a value", toml_value.empty() ? "nothing" : excerpt(toml_value)));
+        throw SceneError(complaint(key, "not a value", typed.empty() ? "nothing" : excerpt(typed)));
     }
     if (const auto fault = assign_node(key, *table->get(kName))) throw SceneError(fault->message);
 }

@@ -19,8 +19,9 @@ Scene read_scene(std::string_view text, std::string_view source_name);
 // read_scene of a file; SceneError also for what cannot be read.
 Scene load_scene(const std::string& path);
 
-// Sets one key from the text of a TOML value. A string need not be quoted when it begins with a letter and holds
-// letters, digits, spaces, '-', '_' and '.' alone. SceneError, beginning with the key's name.
-void assign_value(const Key& key, std::string_view toml_value);
+// Sets one key from what somebody typed for it: a TOML value, with numbers spelt as in typed_number.h. Text that begins
+// with no quote is a string as it stands where the key takes text; elsewhere words are, such as the names of choices.
+// SceneError, beginning with the key's name.
+void assign_value(const Key& key, std::string_view typed);
 
 }  // namespace strata::scene

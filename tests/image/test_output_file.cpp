@@ -90,14 +90,27 @@ TEST_CASE("places that cannot take the file are named with the reason") {
     const ScratchFolder folder;
     fs::create_directory(folder / "folder.exr");
     write_bytes(folder / "file", "");
-    REQUIRE(mkfifo((folder / "pipe.png").c_str(), 0600) == 0);
+    REQUIRE(mknod((folder / "socket.png").c_str(), S_IFSOCK | 0600, 0) == 0);
     CHECK(contains(check_error(folder / "missing/a.exr"), "does not exist"));
     CHECK(contains(check_error(folder / "missing/a.exr"), (folder / "missing").string()));
     CHECK(contains(check_error(folder / "file/a.exr"), "ot a folder"));
     CHECK(contains(check_error(folder / "folder.exr"), "it is a folder"));
-    CHECK(contains(check_error(folder / "pipe.png"), "not a regular file"));
+    CHECK(contains(check_error(folder / "socket.png"), "not a regular file"));
     CHECK(contains(check_error(folder / (std::string(300, 'n') + ".exr")), "too long"));
     CHECK(contains(check_error("/proc/a.exr"), "cannot write"));
+}
+
+TEST_CASE("a pipe, a device and standard output take pictures; nothing is made beside them") {
+    const ScratchFolder folder;
+    REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    CHECK(check_error(folder / "pipe").empty());
+    CHECK(check_error("png:" + (folder / "pipe").string()).empty());
+    CHECK(check_error("/dev/null").empty());
+    CHECK(format_of(folder / "pipe") == Format::exr);
+    CHECK(format_of("png:" + (folder / "pipe").string()) == Format::png);
+    CHECK(contains(check_error("png:" + (folder / "none").string()), "cannot tell the picture format"));
+    { const OutputFile file(folder / "pipe"); }
+    CHECK(folder.names().size() == 1);
 }
 
 TEST_CASE("a folder or file without write permission is refused") {

@@ -5,6 +5,7 @@
 
 #include "src/render/progress_printer.h"
 #include "src/render/render.h"
+#include "src/render/status_line.h"
 #include "tests/render/image_functions.h"
 
 using namespace strata;
@@ -55,4 +56,13 @@ TEST_CASE("progress grows, stays within the whole, and counts rays") {
         CHECK(result.cpu_seconds > 0);
         CHECK(result.cpu_seconds < 64 * result.seconds);
     }
+}
+
+TEST_CASE("a status line is cut to the terminal's width, its characters whole") {
+    CHECK(cut_to_columns("12345", 5) == "12345");
+    CHECK(cut_to_columns("12345", 4) == "1234");
+    CHECK(cut_to_columns("Größe", 4) == "Größ");
+    CHECK(cut_to_columns("山山", 1) == "山");
+    CHECK(cut_to_columns("abc", 0).empty());
+    CHECK(cut_to_columns("", 3).empty());
 }

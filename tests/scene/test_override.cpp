@@ -45,6 +45,32 @@ TEST_CASE("an override takes any TOML value, and plain words as strings") {
     CHECK(with("title=\"\"\"two\nlines\"\"\"").title == "two\nlines");
 }
 
+TEST_CASE("text without quotes is a string, whatever it holds, where the key takes text") {
+    for (const char* text : {"Größe", "山", "2001", "true", "1979-05-27", "[a]", "semi;colon", "a = b", "Tom's hill",
+                             "5 % \"steep\"", "back\\slash", ".5", "#1"}) {
+        CAPTURE(text);
+        CHECK(with(std::string("title=") + text).title == text);
+    }
+}
+
+TEST_CASE("numbers are read as people type them, in vectors too") {
+    CHECK(with("camera.fov_deg=.5").camera.fov_deg == 0.5);
+    CHECK(with("camera.fov_deg=5.").camera.fov_deg == 5.0);
+    CHECK(with("camera.fov_deg=+1").camera.fov_deg == 1.0);
+    CHECK(with("camera.fov_deg=+.25e1").camera.fov_deg == 2.5);
+    CHECK(with("camera.far=1e3").camera.far == 1000.0);
+    CHECK(with("camera.far=1.e3").camera.far == 1000.0);
+    CHECK(with("camera.position=[.5, -1., +2e-1]").camera.position == glm::dvec3(0.5, -1.0, 0.2));
+    CHECK(with("sampling.N=+4").sampling.N == 4);
+    CHECK(with("sampling.N=1e1").sampling.N == 10);
+    CHECK(with("sampling.N=4.").sampling.N == 4);
+    CHECK(with("film.width=1.28e3").film.width == 1280);
+    CHECK(with("surface.seed=1e3").surface.seed == 1000);
+    CHECK(error_of("camera.fov_deg=.").find("not a value (.)") != std::string::npos);
+    CHECK(error_of("camera.fov_deg=0,5").find("not a value (0,5)") != std::string::npos);
+    CHECK(error_of("camera.fov_deg=1e999") != "");
+}
+
 TEST_CASE("an override changes that key alone") {
     const Scene scene = with("surface.seed=7");
     CHECK(scene.surface.seed == 7);
@@ -67,8 +93,8 @@ TEST_CASE("an override that is none is refused with the option, the key and what
           "--set camera.fov_deg=wide: camera.fov_deg: wrong type, a string (\"wide\"), allowed: 0.01 to 179 degrees");
     CHECK(error_of("sampling.estimator=sobl").ends_with("did you mean 'sobol'?"));
     CHECK(
-        error_of("sampling.N=4.0", "-N 4.0") ==
-        "-N 4.0: sampling.N: must be an integer, written without a point or exponent (4.0), allowed: integers 1 to 64");
+        error_of("sampling.N=4.5", "-N 4.5") ==
+        "-N 4.5: sampling.N: must be an integer, written without a point or exponent (4.5), allowed: integers 1 to 64");
 }
 
 TEST_CASE("what has no key, no value or more than one value is refused") {
@@ -82,5 +108,7 @@ TEST_CASE("what has no key, no value or more than one value is refused") {
     CHECK(error_of("camera.fov_deg=35 36").find("camera.fov_deg: not a value (35 36)") != std::string::npos);
     CHECK(error_of("camera.fov_deg=35\ncamera.far=3").find("not a value (35\\u000Acamera.far=3)") != std::string::npos);
     CHECK(error_of("camera.position=[1,2").find("not a value ([1,2)") != std::string::npos);
-    CHECK(error_of("title=semi;colon").find("not a value (semi;colon)") != std::string::npos);
+    CHECK(error_of("title=\"half quoted").find("not a value (\"half quoted)") != std::string::npos);
+    CHECK(error_of("title=two\nlines").find("not a value (two\\u000Alines)") != std::string::npos);
+    CHECK(error_of("title=broken \xff UTF-8").find("not a value") != std::string::npos);
 }

@@ -87,7 +87,6 @@ check_refusals() {
     refuses 'an unknown extension is refused with the known ones' 2 '*.bmp*.exr*.mp4*' animate planet --frames 1 -o p.bmp
     refuses 'EXR holds no sheet' 2 '*p.exr*' animate wheel -o p.exr
     refuses 'a missing folder is named' 1 '*"nowhere" does not exist*' animate planet --frames 1 -o nowhere/p.png
-    refuses 'a # in a folder is refused' 2 "*'#' in a folder*" animate planet --frames 1 -o 'a#/p.png'
     refuses 'settings of columns are checked' 2 "*--columns 'N=99': sampling.N: out of range*" animate wheel --columns 'N=99'
     refuses 'a misspelt setting gets the nearest' 2 "*did you mean 'none'*" animate wheel --columns 'nne; N=2'
     refuses 'columns of other sizes are refused' 2 '*same film.width*' animate wheel --columns 'none; film.width=3'
@@ -118,6 +117,17 @@ check_columns() {
 
 check_films() {
     [[ $has_ffmpeg ]] || return
+    local name
+    mkdir -p 'a#1 %d/50%'
+    for name in 'a#1 %d/50%/Größe #2 %03d.MP4' './-dash.WebM' "it's [a]{b}*?.GIF" ':colon,;=.mp4'; do
+        run animate wheel --size 16x16 -N 1 --frames 0-1 --quiet -o "$name"
+        expect "'$name' is a film's name" "$status: $output $(ffprobe -v error -count_frames -show_entries \
+            stream=nb_read_frames -of csv=p=0 "file:$name" 2>&1 | head -c 1)" '0:  2'
+        run animate wheel --size 16x16 -N 1 --frames 0-1 --quiet -o "$name.FRAMES #.PNG" -o "$name"
+        expect "frames may be called '$name.FRAMES #.PNG'" "$status: $output" '0: '
+        rm -- "${name%.*}"*
+    done
+    rm -r 'a#1 %d'
     run animate wheel --size 16x16 -N 2 --frames 0-4 -o 'w x.mp4' -o w.webm -o w.gif
     expect_match 'films are encoded' "$status: $output" '0: frames   5 rendered*wrote    w x.mp4 (5 frames, 0.2 s)*w.gif*'
     expect 'their frames are gone' "$(find . -mindepth 1 | sort | tr '\n' ' ')" './w x.mp4 ./w.gif ./w.webm '

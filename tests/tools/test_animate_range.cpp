@@ -79,6 +79,8 @@ TEST_CASE("'#'s in a name become the frame's number, four digits without any") {
     CHECK(FramePattern("a.png").text() == "a.####.png");
     CHECK(FramePattern("5%/a%.png").ffmpeg_pattern() == "file:5%%/a%%.%04d.png");
     CHECK(FramePattern("a.png").ffmpeg_pattern() == "file:./a.%04d.png");
-    CHECK_THROWS_AS(FramePattern("a#b#.png"), UsageError);
-    CHECK_THROWS_AS(FramePattern("a#/b.png"), UsageError);
+    CHECK(FramePattern("take #2.###.png").path(7) == "take #2.007.png");
+    CHECK(FramePattern("take #2.###.png").text() == "take #2.###.png");
+    CHECK(FramePattern("a#/b.png").path(7) == "a#/b.0007.png");
+    CHECK(FramePattern("100%d/50%.##.png").ffmpeg_pattern() == "file:100%%d/50%%.%02d.png");
 }

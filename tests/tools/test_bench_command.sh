@@ -47,6 +47,7 @@ check_against() {
     refuses 'another format is refused' 2 '*newer.json: is of format 2*' bench "${tiny[@]}" --only octaves --against newer.json
     refuses 'a file that is not there is refused' 2 '*nowhere.json: cannot be read*' bench --quick --against nowhere.json
     echo 'x' >text
+    refuses 'a folder is refused' 2 '*--against .: cannot be read: Is a directory*' bench --quick --against .
     refuses 'a file of anything is refused' 2 '*text: is no JSON*' bench --quick --against text
     expect 'nothing was written' "$(echo other*)" 'other*'
 }

@@ -45,12 +45,23 @@ check_stats() {
     expect 'rays of a pass are exact' "$(awk '/^rays/ { print $NF }' <<<"$output")" 1.00
     run explain three.exr --no-pilot
     expect_match 'a picture tells its passes' "$status: $output" '0: *more passes *3 passes*'
+    "$strata" render terrain "${tiny[@]}" --aov steps --quiet -o costly.exr --stats costly.json
+    run explain terrain "${tiny[@]}" --aov steps,evals --stats costly.json
+    expect_match 'what pixels cost is explained as it is rendered' "$status: $output" '0: *other channels *evals.Y, steps.Y*'
+    run explain costly.exr --no-pilot
+    expect_match 'a picture tells its other channels' "$status: $output" '0: *other channels *steps.Y*'
+    refuses 'other channels of several passes are refused as by render' 2 '*--aov: allowed with one pass*' \
+        explain terrain --aov steps --passes 2
+    refuses 'an unknown AOV gets the known ones' 2 '*--aov depth: allowed: steps, evals*' explain terrain --aov depth
     refuses 'counts of another scene are refused' 2 '*terrain.json: of a render of another scene*' \
         explain isosurface "${tiny[@]}" --stats terrain.json
     refuses 'counts with another N are refused' 2 '*another setting*' explain terrain --size 32x18 -N 3 --stats terrain.json
     refuses 'counts of another crop are refused' 2 '*crop*' explain terrain "${tiny[@]}" --crop 0,0,4,4 --stats terrain.json
     refuses 'counts of another tracer are refused' 2 '*tracer*' explain terrain "${tiny[@]}" --tracer reference --stats terrain.json
     refuses 'a missing record is refused' 2 '*none.json: cannot be read*' explain terrain --stats none.json
+    run explain wheel --size 2x2
+    expect_match 'a share of all rays reads as that' "$output" '*, 100 % of all*'
+    refuses 'a folder is no record, and says so' 2 '*--stats .: cannot be read: Is a directory' explain terrain --stats .
     refuses 'a picture is no record' 2 '*a.png: not JSON*' explain terrain --stats a.png
 }
 

@@ -6,6 +6,10 @@
 check_refusals() {
     refuses 'a figure that is not there is refused' 2 '*--only 9: allowed*1 to 8*' figures --only 9
     refuses 'a figure 0 is refused' 2 '*--only 0: allowed*' figures --only 1,0
+    output=$(TMPDIR=/nonexistent "$strata" figures --only 1 --size small -o untouched --quiet 2>&1)
+    expect_match 'a temporary folder that cannot be made is named with what to do' "$?: $output" \
+        '1: *cannot make a temporary folder in "/nonexistent": No such file*TMPDIR*'
+    rm -rf untouched
     refuses 'a word is no figure' 2 '*--only one: allowed*' figures --only one
     refuses 'an empty number is refused' 2 '*--only*allowed*' figures --only 1,
     refuses 'an unknown size gets the known ones' 2 '*--size huge: allowed: small, paper, large*' figures --size huge

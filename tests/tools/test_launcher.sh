@@ -163,6 +163,36 @@ check_moves() {
         "$(STRATA_BUILD_DIR=/proc/none "$strata" 2>&1)" '*cannot write*STRATA_BUILD_DIR*'
 }
 
+# An installer that notes what it is asked for. What commands need they ask for themselves.
+check_packages() {
+    local command answer
+    mv "$clone/tools/setup/install" "$scratch/install"
+    # shellcheck disable=SC2016 # the script's own
+    printf '#!/bin/sh\necho "$*" >>"%s"\n' "$scratch/asked" >"$clone/tools/setup/install"
+    chmod +x "$clone/tools/setup/install"
+    "$strata" >/dev/null 2>&1 # it is a source, and the program built anew
+    rm -f "$scratch/asked"
+    for command in figures converge stability bench 'bench --peers' animate 'animate -o a.mp4'; do
+        for answer in '--help' '-h' '--version' '--wrong' 'x'; do
+            # shellcheck disable=SC2086 # words are meant
+            "$strata" $command $answer >/dev/null 2>&1
+        done
+    done
+    expect 'the launcher installs nothing for a command of a program that is built' "$(cat "$scratch/asked" 2>/dev/null)" ''
+    rm "$clone/.build/release/tools/strata"
+    "$strata" figures --help >/dev/null 2>&1
+    expect 'and for one that is not, what building needs' "$(cat "$scratch/asked")" build
+    cat >"$clone/tools/strata.cpp" <<'TEXT'
+#include <cstdio>
+#include <cstdlib>
+int main() { std::printf("%s %s\n", std::getenv("STRATA_INSTALLER"), std::getenv("STRATA_LAUNCHER")); }
+TEXT
+    expect 'the program knows by whom to install' "$("$strata" 2>/dev/null)" "$clone/tools/setup/install $clone/tools/strata"
+    mv "$scratch/install" "$clone/tools/setup/install"
+    write_program four
+    "$strata" >/dev/null 2>&1
+}
+
 check_interruption() {
     local builder
     write_program five
@@ -193,6 +223,7 @@ check_folders
 check_rebuilds
 check_failures
 check_moves
+check_packages
 check_interruption
 if grep -qs 'VERSION_ID="12"' /etc/os-release && command -v dpkg-query >/dev/null; then check_missing_packages; fi
 printf '%d passed, %d failed\n' "$passed" "$failed"

@@ -124,8 +124,15 @@ check_rendering_again() {
     expect_same_file 'a tiled EXR rendered again is the same tiled EXR' tiled.exr tiled_again.exr
     expect 'the tiled bit is set where it was asked for' "$(head -c 6 a.exr | tail -c 1 | od -An -tu1 | tr -d ' ') \
 $(head -c 6 tiled.exr | tail -c 1 | od -An -tu1 | tr -d ' ')" '0 2'
-    refuses 'a recorded crop that a new frame does not hold says where it comes from' 2 '*c.exr: its --crop 3,2,20,11*' \
-        render c.exr --size 8x8
+    "$strata" render c.exr --quiet --size 48x26 -o larger.exr
+    "$strata" render hyperterrain --quiet --size 48x26 --crop 6,4,40,22 --format float --simd scalar --tracer reference \
+        -N 3 -m 3 --estimator shared --seed 7 --time-order 2 --frame 3 --exposure 1.5 --set camera.fov_deg=35 \
+        -o same.exr
+    expect_same_file 'a crop rendered again at another size shows the same part of the frame' larger.exr same.exr
+    run render c.exr --quiet --set film.width=2 --set film.height=1 -o smallest.exr
+    expect 'and keeps a pixel of the smallest frame' "$status: $output" '0: '
+    run explain c.exr --size 48x26 --no-pilot --json plan.json --quiet
+    expect 'explain tells of the same crop' "$(tr -d ' \n' <plan.json | grep -o '"crop":[^]]*]')" '"crop":[6,4,40,22]'
 }
 
 check_aovs() {

@@ -62,6 +62,8 @@ TEST_CASE("axes that cannot be are refused with what is wrong") {
     check_refused("an empty value", {{"--N", "1,2,"}});
     check_refused("an empty value", {}, {{"--axis", "octaves="}});
     check_refused("stands twice", {{"--N", "1,2,1"}});
+    check_refused("stands twice", {{"--N", "1,2,.1e1"}});
+    check_refused("stands twice", {{"--seed", "9007199254740993,+9007199254740993"}});
     check_refused("both vary sampling.N", {{"--N", "1,2"}, {"--N", "3,4"}});
     check_refused("both vary sampling.N", {{"--N", "1,2"}}, {{"--axis", "sampling.N=3,4"}});
     check_refused("both vary sampling.m", {}, {}, {{"--rows", "m=1,2"}}, {{"--columns", "m=3,4"}});

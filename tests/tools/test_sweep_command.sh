@@ -94,6 +94,7 @@ check_refusals() {
     refuses 'N = 0 is refused' 2 '*--N 0: sampling.N: out of range*1 to 64*' sweep "${tiny[@]}" --N 1,0
     refuses 'an unknown axis gets the nearest' 2 "*octvaes*did you mean*" sweep "${tiny[@]}" --axis surface.octvaes=1,2
     refuses 'an unknown estimator gets the nearest' 2 "*did you mean 'sobol'*" sweep "${tiny[@]}" --estimator sobl,none
+    refuses 'of a list given twice the last counts' 2 '*sampling.N: out of range (99)*' sweep "${tiny[@]}" --N 1,2 --N 99
     refuses 'the same axis twice is refused' 2 '*both vary sampling.N*' sweep "${tiny[@]}" --N 1,2 --rows N=3,4
     refuses 'an empty list is refused' 2 '*an empty value*' sweep "${tiny[@]}" --N ''
     refuses 'a third axis is refused' 2 '*a third axis*' sweep "${tiny[@]}" --N 1,2 --m 1,2 --seed 1,2

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include "src/image/format.h"
 #include "src/scene/key_text.h"
 #include "tools/process.h"
 
@@ -33,7 +34,7 @@ const Words kColourTags{"-colorspace",  "bt709", "-color_primaries", "bt709", "-
                         "-color_range", "tv",    "-threads",         "4"};
 
 Words codec(const fs::path& film) {
-    const std::string extension = film.extension().string();
+    const std::string extension = image::extension_of(film);
     Words words;
     if (extension == ".gif") return {"-filter_complex", kGifFilter, "-loop", "0", "-f", "gif"};
     if (extension == ".webm") {
@@ -68,12 +69,12 @@ class TemporaryFilm {
 }  // namespace
 
 bool is_film(const fs::path& path) {
-    const std::string extension = path.extension().string();
+    const std::string extension = image::extension_of(path);
     return extension == ".mp4" || extension == ".webm" || extension == ".gif";
 }
 
 void encode_film(const fs::path& film, const FramePattern& frames, const FrameRange& range, double fps) {
-    const fs::path ffmpeg = find_program("ffmpeg", "ffmpeg");
+    const fs::path ffmpeg = find_program("ffmpeg", "ffmpeg", "video");
     const TemporaryFilm temporary(film);
     Words words{"-nostdin",
                 "-hide_banner",
@@ -86,6 +87,8 @@ void encode_film(const fs::path& film, const FramePattern& frames, const FrameRa
                 scene::number_text(fps),
                 "-start_number",
                 fmt::format("{}", range.first),
+                "-pattern_type",
+                "sequence",
                 "-i",
                 frames.ffmpeg_pattern(),
                 "-frames:v",

@@ -20,24 +20,20 @@ std::string with_doubled_percent(const std::string& text) {
 
 }  // namespace
 
+// Of several runs of '#' the last one is the number: the others are part of a name such as "shot #2".
 FramePattern::FramePattern(const fs::path& typed) : folder_(typed.parent_path()) {
     const std::string name = typed.filename().string();
-    const auto first = name.find('#');
-    if (folder_.string().find('#') != std::string::npos) {
-        throw UsageError(fmt::format("-o {}: '#' in a folder's name, allowed: in the file's", typed.string()));
-    }
-    if (first == std::string::npos) {
+    const auto last = name.rfind('#');
+    if (last == std::string::npos) {
         before_ = typed.stem().string() + ".";
         after_ = typed.extension().string();
         return;
     }
-    const auto end = std::min(name.find_first_not_of('#', first), name.size());
-    if (name.find('#', end) != std::string::npos) {
-        throw UsageError(fmt::format("-o {}: '#' in several places, allowed: one run of them", typed.string()));
-    }
+    const auto before_run = name.find_last_not_of('#', last);
+    const std::size_t first = before_run == std::string::npos ? 0 : before_run + 1;
     before_ = name.substr(0, first);
-    after_ = name.substr(end);
-    digits_ = static_cast<int>(end - first);
+    after_ = name.substr(last + 1);
+    digits_ = static_cast<int>(last + 1 - first);
 }
 
 fs::path FramePattern::path(int frame) const {

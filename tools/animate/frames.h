@@ -6,11 +6,10 @@
 
 namespace strata::tools {
 
-// Names of numbered files: "out/name.####.png"; each '#' is a digit at least. Without '#', "name.png" stands for
-// "name.####.png".
+// Names of numbered files: "out/name.####.png"; each '#' is a digit at least, the last run of them if there are
+// several. Without '#', "name.png" stands for "name.####.png".
 class FramePattern {
   public:
-    // Throws UsageError when '#' stand in several places or in a folder's name.
     explicit FramePattern(const std::filesystem::path& typed);
 
     std::filesystem::path path(int frame) const;

@@ -8,6 +8,7 @@
 #include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
+#include "src/image/stream_target.h"
 #include "src/image/text.h"
 #include "src/scene/key_text.h"
 #include "src/scene/validate.h"
@@ -71,10 +72,14 @@ image::ExrFormat parse_exr_format(const std::string& name) {
     throw UsageError(fmt::format("--format {}: allowed: half, float", scene::excerpt(name)));
 }
 
-bool is_png(const FrameOutput& output) { return output.pattern.path(0).extension() == ".png"; }
+bool is_png(const FrameOutput& output) { return image::extension_of(output.pattern.path(0)) == ".png"; }
 
 void add_output(AnimateJob& job, const fs::path& typed) {
     if (!typed.has_filename()) throw UsageError(fmt::format("-o {}: names no file", typed.string()));
+    if (image::stream_target(typed)) {
+        throw UsageError(fmt::format(
+            "-o {}: allowed: files; frames are numbered ones, and films are put in place whole", typed.string()));
+    }
     if (is_film(typed)) {
         if (std::ranges::find(job.films, typed) == job.films.end()) job.films.push_back(typed);
         return;
@@ -106,16 +111,17 @@ void choose_film_source(AnimateJob& job) {
 
 void check_paths(const AnimateJob& job) {
     for (const fs::path& film : job.films) image::check_replaceable(film);
-    if (!job.films.empty()) find_program("ffmpeg", "ffmpeg");
     for (const FrameOutput& output : job.frames) {
         if (output.is_scratch) continue;
         const fs::path first = output.pattern.path(job.range.first);
         image::check_replaceable(first);
     }
     std::error_code error;
-    if (job.scratch.empty() || !fs::exists(job.scratch, error) || fs::is_directory(job.scratch, error)) return;
-    throw UsageError(fmt::format("{}: allowed: a folder, or nothing, where the film's frames are kept meanwhile",
-                                 job.scratch.string()));
+    if (!job.scratch.empty() && fs::exists(job.scratch, error) && !fs::is_directory(job.scratch, error)) {
+        throw UsageError(fmt::format("{}: allowed: a folder, or nothing, where the film's frames are kept meanwhile",
+                                     job.scratch.string()));
+    }
+    if (!job.films.empty()) find_program("ffmpeg", "ffmpeg", "video");
 }
 
 // Every frame has its own time: what is within reach of one may not be of another.

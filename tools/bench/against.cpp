@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tools/errors.h"
+#include "tools/text_file.h"
 
 namespace strata::tools::bench {
 
@@ -18,9 +18,10 @@ namespace {
 }
 
 nlohmann::json parse(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    if (!stream) refuse(file, "cannot be read; allowed: a bench.json of strata bench");
-    nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+    std::string why;
+    const auto text = read_text_file(file, why);
+    if (!text) refuse(file, fmt::format("cannot be read: {}; allowed: a bench.json of strata bench", why));
+    nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
     if (json.is_discarded()) refuse(file, "is no JSON; allowed: a bench.json of strata bench");
     if (!json.is_object() || json.value("kind", nlohmann::json()) != "strata bench") {
         refuse(file, "is no benchmark; allowed: a bench.json of strata bench");

@@ -4,8 +4,9 @@
 
 #include <chrono>
 
-#include "tools/bench/scratch.h"
+#include "tools/bench/own_folder.h"
 #include "tools/process.h"
+#include "tools/temporary_folder.h"
 
 namespace strata::tools::bench {
 
@@ -13,7 +14,7 @@ namespace {
 
 MemoryResult render_alone(const char* id, int width, int height) {
     MemoryResult row{.id = id, .width = width, .height = height};
-    const Scratch scratch;
+    const TemporaryFolder scratch("bench");
     const auto start = std::chrono::steady_clock::now();
     try {
         const ProgramRun run = run_program(

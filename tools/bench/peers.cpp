@@ -9,7 +9,9 @@
 
 #include "src/image/image_error.h"
 #include "src/scene/printer.h"
+#include "tools/bench/own_folder.h"
 #include "tools/bench/variants.h"
+#include "tools/installer.h"
 #include "tools/process.h"
 
 namespace strata::tools::bench {
@@ -17,6 +19,8 @@ namespace strata::tools::bench {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kPackages = "peers";  // a section of tools/setup/packages.txt
 
 constexpr int kVertices = 2048;  // a side of the mesh
 constexpr int kQuickVertices = 256;
@@ -46,7 +50,15 @@ double gradient_found(const std::string& output) {
     return std::regex_search(output, found, pattern) ? std::stod(found[1].str()) : 0;
 }
 
+fs::path companion() { return own_folder() / "strata_bench_embree"; }
+
 }  // namespace
+
+void install_peers() {
+    if (fs::exists(companion())) return;
+    // The companion is built where Embree is there.
+    if (install_packages(kPackages)) restart_rebuilt();
+}
 
 Peers::Peers(const Plan& plan) : plan_(plan) {
     find_programs();
@@ -57,13 +69,12 @@ Peers::Peers(const Plan& plan) : plan_(plan) {
 
 void Peers::find_programs() {
     try {
-        povray_ = find_program("povray", "povray");
+        povray_ = find_program("povray", "povray", kPackages);
     } catch (const ProcessError& error) {
         missing_.emplace_back(error.what());
     }
-    const fs::path companion = own_folder() / "strata_bench_embree";
-    if (fs::exists(companion)) {
-        embree_ = companion;
+    if (fs::exists(companion())) {
+        embree_ = companion();
     } else {
         missing_.emplace_back(
             "Embree was not there when strata was built: Debian has it in the package libembree-dev; tools/strata "

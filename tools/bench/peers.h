@@ -14,7 +14,7 @@
 
 #include "src/render/cancel.h"
 #include "tools/bench/results.h"
-#include "tools/bench/scratch.h"
+#include "tools/temporary_folder.h"
 
 namespace strata::tools::bench {
 
@@ -42,11 +42,14 @@ class Peers {
     PeerResult& result(const std::string& id, const std::string& what);
 
     Plan plan_;
-    Scratch scratch_;
+    TemporaryFolder scratch_{"bench"};
     std::filesystem::path povray_, embree_;  // empty: not there
     std::vector<PeerResult> results_;
     std::vector<std::string> missing_;
 };
+
+// Installs what is missing, where that can be, and starts the program anew if more of it is to be built then.
+void install_peers();
 
 // The scene for POV-Ray; max_gradient and shadows are declared on its command line.
 std::string povray_scene(const scene::Scene& scene);

@@ -1,6 +1,7 @@
 #include "tools/explain/plan.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <utility>
 
@@ -129,7 +130,7 @@ void add_estimator(FeatureList& list, const scene::Scene& scene) {
 
 }  // namespace
 
-Plan make_plan(const scene::Scene& scene, render::Tracer tracer, int passes) {
+Plan make_plan(const scene::Scene& scene, render::Tracer tracer, int passes, const std::vector<Aov>& aovs) {
     FeatureList list;
     Plan plan;
     add_motion(list, scene);
@@ -145,7 +146,10 @@ Plan make_plan(const scene::Scene& scene, render::Tracer tracer, int passes) {
     list.add("more passes", passes > 1,
              passes > 1 ? fmt::format("{} passes are averaged; the costs below are those of one", passes)
                         : "one pass: nothing is summed up between passes");
-    list.add("other channels", false, "pictures hold colour alone: no depth, normals or other AOVs");
+    list.add("other channels", !aovs.empty(),
+             aovs.empty()
+                 ? "pictures hold colour alone: no depth, normals or other AOVs"
+                 : fmt::format("--aov: means over each pixel's samples in {}", fmt::join(aov_channels(aovs), ", ")));
     plan.features = list.take();
     return plan;
 }

@@ -7,6 +7,7 @@
 
 #include "src/render/surface_image.h"
 #include "src/scene/scene.h"
+#include "tools/aov.h"
 
 namespace strata::tools {
 
@@ -41,6 +42,6 @@ struct Plan {
 };
 
 // Of a valid scene. passes: of N*N samples each, to be averaged.
-Plan make_plan(const scene::Scene& scene, render::Tracer tracer, int passes = 1);
+Plan make_plan(const scene::Scene& scene, render::Tracer tracer, int passes = 1, const std::vector<Aov>& aovs = {});
 
 }  // namespace strata::tools

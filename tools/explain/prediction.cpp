@@ -41,6 +41,18 @@ double strip_memory(const render::Window& window) {
     return (kStripsInWork * kFilmBytes + kEncoderBytes) * strip_pixels;
 }
 
+// What pixels cost: in the strips and the encoder, the small pictures' sums, and drawing them, one after the other.
+double aov_memory(const render::Window& window, const std::vector<Aov>& aovs) {
+    if (aovs.empty()) return 0;
+    constexpr double kCostBytes = 8, kChannelBytes = 8, kSumBytes = 17, kDrawnBytes = 42;
+    const double strip_pixels = 1.0 * window.width() * std::min(image::kStripRows, window.height());
+    const double longest = std::max(window.width(), window.height());
+    const double block = std::ceil(longest / kLongestCostSide);
+    const double small_pixels = 1.0 * window.width() * window.height() / (block * block);
+    const auto count = static_cast<double>(aovs.size());
+    return strip_pixels * (3 * kCostBytes + count * kChannelBytes) + small_pixels * (count * kSumBytes + kDrawnBytes);
+}
+
 // Samples, rays and beams on their way in a thread. A tile may be less than a batch.
 double worker_memory(const render::Estimator& estimator, std::size_t batch_samples) {
     constexpr double kRaysBytes = 1.5e6, kSampleBytes = 225;
@@ -110,7 +122,8 @@ Prediction predict(const scene::Scene& scene, const render::Window& window, cons
     leave_out(scene, costs);
     const auto image = render::make_image(scene, settings.tracer);
     costs.peak_memory_bytes =
-        expected_memory(window, estimator, image->batch_samples(), prediction.threads, settings.passes);
+        expected_memory(window, estimator, image->batch_samples(), prediction.threads, settings.passes) +
+        aov_memory(window, settings.aovs);
     if (settings.with_pilot) {
         const PilotRun run =
             run_pilot(*image, sampling, owners_of(window, estimator), pilot_rays(costs.rays, settings.tracer));

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "src/render/film.h"
 #include "src/render/surface_image.h"
 #include "src/scene/scene.h"
+#include "tools/aov.h"
 
 namespace strata::tools {
 
@@ -47,6 +49,7 @@ struct PredictionSettings {
     render::Tracer tracer = render::Tracer::fast;
     int threads = 0;  // 0: as many as the machine has
     int passes = 1;   // costs are those of one, but memory
+    std::vector<Aov> aovs{};
     bool with_pilot = true;
 };
 

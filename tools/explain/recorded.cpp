@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tools/errors.h"
+#include "tools/text_file.h"
 
 namespace strata::tools {
 
@@ -14,9 +14,10 @@ namespace {
 using nlohmann::json;
 
 json parse_file(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    json parsed = json::parse(file, nullptr, false);
-    if (!file.is_open() || file.bad()) throw UsageError(fmt::format("--stats {}: cannot be read", path.string()));
+    std::string why;
+    const auto text = read_text_file(path, why);
+    if (!text) throw UsageError(fmt::format("--stats {}: cannot be read: {}", path.string(), why));
+    json parsed = json::parse(*text, nullptr, false);
     if (!parsed.is_object()) {
         throw UsageError(fmt::format("--stats {}: not JSON that strata render --stats wrote", path.string()));
     }

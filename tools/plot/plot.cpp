@@ -1,16 +1,17 @@
 #include "tools/plot/plot.h"
 
 #include <fmt/format.h>
-#include <cstdlib>
 
 #include <cmath>
 #include <fstream>
 #include <iterator>
 
+#include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
 #include "tools/plot/script.h"
 #include "tools/process.h"
+#include "tools/temporary_folder.h"
 
 namespace strata::tools {
 
@@ -18,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path gnuplot() { return find_program("gnuplot", "gnuplot-nox"); }
+fs::path gnuplot() { return find_program("gnuplot", "gnuplot-nox", "plot"); }
 
 PlotFormat format_of(const fs::path& path) {
-    const std::string extension = path.extension().string();
+    const std::string extension = image::extension_of(path);
     if (extension == ".png") return PlotFormat::png;
     if (extension == ".svg") return PlotFormat::svg;
     throw PlotError(fmt::format("{}: allowed: a plot's name ends in .png or .svg", path.string()));
@@ -83,27 +84,6 @@ void check_panel(const PlotPanel& panel) {
     }
 }
 
-// A folder of its own for gnuplot's script and output, removed with both.
-class WorkFolder {
-  public:
-    WorkFolder() {
-        std::string pattern = (fs::temp_directory_path() / "strata-plot-XXXXXX").string();
-        if (::mkdtemp(pattern.data()) == nullptr) throw PlotError(pattern + ": this folder cannot be made");
-        path_ = pattern;
-    }
-    ~WorkFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    WorkFolder(const WorkFolder&) = delete;
-    WorkFolder& operator=(const WorkFolder&) = delete;
-
-    fs::path operator/(const char* name) const { return path_ / name; }
-
-  private:
-    fs::path path_;
-};
-
 std::vector<unsigned char> bytes_of(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -129,8 +109,8 @@ void write_plot(const Plot& plot, const fs::path& path) {
     const PlotFormat format = format_of(path);
     check_plot(plot);
     const fs::path program = gnuplot();
-    const WorkFolder folder;
-    const fs::path script = folder / "plot.gp", drawn = folder / "plot";
+    const TemporaryFolder folder("plot");
+    const fs::path script = folder.path() / "plot.gp", drawn = folder.path() / "plot";
     std::ofstream(script, std::ios::binary) << plot_script(plot, format, drawn.string());
     // -d: no start-up files of the user or the system.
     run_program(program, {"-d", script.string()});

@@ -78,9 +78,16 @@ configure() { # folder what option...
     printf '%s\n' "$configuration" >"$folder/configured"
 }
 
-# On a terminal: what goes on, in one line that is written over.
-show_step() { [[ ! -t 2 ]] || printf '\r\033[K%s' "$1" >&2; }
-hide_step() { [[ ! -t 2 ]] || printf '\r\033[K' >&2; }
+# On a terminal that can erase a line: what goes on, in one line that is written over, cut to the terminal's width.
+can_erase() { [[ -t 2 && ${TERM:-dumb} != dumb ]]; }
+show_step() {
+    local width
+    can_erase || return 0
+    width=$(stty size <&2 2>/dev/null) && width=${width#* }
+    ((${width:-0} > 0)) || width=80
+    printf '\r\033[K%.*s' $((width - 1)) "$1" >&2
+}
+hide_step() { ! can_erase || printf '\r\033[K' >&2; }
 
 follow_ninja() { # what
     local line

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "src/image/canvas.h"
@@ -12,13 +11,17 @@
 #include "src/image/metadata.h"
 #include "src/image/output_file.h"
 #include "src/image/read.h"
+#include "src/image/stream_target.h"
 #include "src/image/text.h"
 #include "src/scene/key_text.h"
 #include "src/scene/printer.h"
 #include "src/scene/toml_reader.h"
+#include "src/scene/typed_number.h"
 #include "tools/column_settings.h"
 #include "tools/errors.h"
 #include "tools/picture_labels.h"
+#include "tools/standard_output.h"
+#include "tools/stream_input.h"
 
 namespace strata::tools {
 
@@ -30,12 +33,15 @@ constexpr int kMostColumns = 64;
 constexpr int kMostZoom = 64;
 constexpr int kPanelWidth = 256;  // that the automatic zoom keeps to
 
-StripSource from_file(const std::string& path) {
-    StripSource source{.name = path, .label = fs::path(path).stem().string(), .file = path, .scene = {}, .picture = {}};
+StripSource from_file(const std::string& typed) {
+    const auto spooled = spool_stream(typed);
+    const fs::path path = spooled.value_or(typed);
+    const std::string label = typed == "-" ? "stdin" : fs::path(typed).stem().string();
+    StripSource source{.name = typed, .label = label, .file = path, .scene = {}, .picture = {}};
     try {
         image::refuse_damaged(path);
         const auto text = image::read_metadata(path, image::kSceneKey);
-        if (text) source.scene = scene::read_scene(*text, path);
+        if (text) source.scene = scene::read_scene(*text, typed);
         source.picture = image::read_linear(path, source.scene ? source.scene->film.exposure : 0.0);
     } catch (const image::ImageError& error) {
         throw UsageError(error.what());
@@ -98,12 +104,10 @@ void find_reference(const StripRequest& request, const std::optional<LoadedScene
                 "--difference and --rmse need --reference: the number of a column, a picture, or settings");
         return;
     }
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error == std::errc() && end == text.data() + text.size()) {
-        if (number < 1 || number > static_cast<int>(job.columns.size()))
+    if (const auto number = scene::typed_integer<int>(text)) {
+        if (*number < 1 || *number > static_cast<int>(job.columns.size()))
             throw UsageError(fmt::format("--reference {}: allowed: column 1 to {}", text, job.columns.size()));
-        job.reference_column = static_cast<std::size_t>(number - 1);
+        job.reference_column = static_cast<std::size_t>(*number - 1);
         return;
     }
     const auto named = [&](const StripSource& column) { return column.name == text || column.label == text; };
@@ -195,9 +199,8 @@ int choose_zoom(const StripRequest& request, const render::Window& window) {
 
 std::optional<double> parse_top(const std::string& text) {
     if (text.empty()) return std::nullopt;
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value) || value <= 0)
+    const auto value = scene::typed_number(text);
+    if (!value || !(*value > 0))
         throw UsageError(fmt::format("--difference-top {}: allowed: a radiance above 0", scene::excerpt(text)));
     return value;
 }
@@ -247,7 +250,8 @@ void check_inputs_stay(const StripJob& job) {
 
 fs::path part_path(const StripJob& job, std::optional<std::size_t> i) {
     const std::string which = i ? fmt::format("{:0{}}", *i + 1, job.columns.size() > 9 ? 2 : 1) : "reference";
-    return job.output.parent_path() / fmt::format("{}-{}.exr", job.output.stem().string(), which);
+    const fs::path sheet = image::stream_target(job.output) ? fs::path("strip.png") : job.output;
+    return sheet.parent_path() / fmt::format("{}-{}.exr", sheet.stem().string(), which);
 }
 
 StripJob prepare_strip(const StripRequest& request) {
@@ -274,6 +278,9 @@ StripJob prepare_strip(const StripRequest& request) {
     job.caption = request.caption.value_or(default_caption(job));
     if (loaded) job.scene_text = scene::print_scene(loaded->scene);
     job.output = request.output.empty() ? fs::path("strip.png") : fs::path(request.output);
+    const auto stream = image::stream_target(job.output);
+    if (stream && !stream->format) job.output = "png:" + job.output.string();
+    keep_output_for(job.output);
     check_outputs(job);
     check_inputs_stay(job);
     image::check_fonts();

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <set>
 #include <utility>
 
 #include "src/scene/key_text.h"
+#include "src/scene/typed_number.h"
 #include "tools/column_settings.h"
 #include "tools/errors.h"
 
@@ -27,6 +29,13 @@ bool is_whole(std::string_view text) {
     return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
+// "1" and "1e0" would be the same picture twice.
+std::string canonical(const std::string& value) {
+    if (const auto whole = scene::typed_integer<std::int64_t>(value)) return fmt::format("{}.0", *whole);
+    const auto number = scene::typed_number(value);
+    return number ? scene::number_text(*number) : value;
+}
+
 SweepAxis make_axis(const std::string& origin, std::string_view key, std::string_view values) {
     SweepAxis axis{.origin = origin, .key = full_key_name(origin, key), .values = split_list(values)};
     if (std::ranges::find(axis.values, "") != axis.values.end())
@@ -34,7 +43,7 @@ SweepAxis make_axis(const std::string& origin, std::string_view key, std::string
                                      scene::excerpt(values)));
     std::set<std::string> seen;
     for (const std::string& value : axis.values) {
-        if (!seen.insert(value).second)
+        if (!seen.insert(canonical(value)).second)
             throw UsageError(fmt::format("{}: the value {} stands twice", origin, scene::excerpt(value)));
     }
     if (axis.values.size() > kMostValues)

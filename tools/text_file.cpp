@@ -1,0 +1,21 @@
+#include "tools/text_file.h"
+
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+namespace strata::tools {
+
+std::optional<std::string> read_text_file(const std::filesystem::path& path, std::string& why) {
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    // A folder opens, but does not read; an empty file has nothing to insert, which is no failure to read.
+    if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
+    if (file.is_open() && !file.bad()) return text.str();
+    why = std::generic_category().message(errno != 0 ? errno : EIO);
+    return std::nullopt;
+}
+
+}  // namespace strata::tools
