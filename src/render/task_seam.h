@@ -1,21 +1,20 @@
-// The one place through which work reaches TBB. Debian's TBB is built without ThreadSanitizer, which therefore sees
-// neither a task's start nor its join as an ordering; the seam states both by an atomic of its own, so that no
-// suppression is needed and a race in the work itself is still found.
+// The one place through which work reaches several threads.
 #pragma once
 
 #include <cstdint>
 #include <functional>
-#include <memory>
+
+#include "src/render/crew.h"
 
 namespace strata::render {
 
 class TaskSeam {
   public:
-    // threads: any number; 0 takes as many as the machine has.
+    // threads: any number; 0 takes as many as this process may use (available_processors()). Fewer where the system
+    // gives no more.
     explicit TaskSeam(int threads);
-    ~TaskSeam();
 
-    int threads() const { return threads_; }
+    int threads() const { return crew_.size(); }
 
     // Calls body(worker, index) once for every index of [0,count), handed out in ascending order, on up to threads()
     // workers, and returns when all are done. A worker, a number of [0,threads()), is never in two calls at once: state
@@ -25,10 +24,7 @@ class TaskSeam {
     void run(std::int64_t count, const Body& body);
 
   private:
-    struct Arena;
-
-    int threads_;
-    std::unique_ptr<Arena> arena_;
+    Crew crew_;
 };
 
 }  // namespace strata::render
