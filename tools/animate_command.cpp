@@ -237,7 +237,7 @@ void add_animate_command(Command& program, int& exit_code) {
         "  strata animate isosurface                           loops: no antialiasing | in space and time\n"
         "  strata animate planet --frames 0-99 -o 'out/planet.####.exr' -o planet.mp4 --set shutter.open_s=0.02\n"
         "  strata animate wheel --columns \"none; l=1; l=4\" --size 320x320 -o wheel.gif\n"
-        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 130 or 143 interrupted.");
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 129, 130 or 143 interrupted.");
     command->callback([request, command, &exit_code] {
         if (command->count("--frame") > 0) throw UsageError("--frame: allowed: --frames A-B, or --frames A for one");
         exit_code = animate_command(*request);

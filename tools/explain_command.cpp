@@ -6,6 +6,7 @@
 #include "noise/simd_target.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
+#include "src/render/cancel.h"
 #include "src/render/progressive.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
@@ -52,6 +53,7 @@ void check_json(const ExplainRequest& request, const LoadedScene& loaded) {
 }
 
 int explain_command(const ExplainRequest& request) {
+    render::end_on_signals();
     const int threads = parse_integer("--threads", request.threads, 0, kMostThreads);
     LoadedScene loaded = request.scene.load();
     if (!request.simd.empty()) {

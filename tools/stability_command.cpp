@@ -151,7 +151,7 @@ void add_stability_command(Command& program, int& exit_code) {
     command->footer(
         "Each row: what was measured, the bound that the arithmetic or a stated contract gives, and in the files the\n"
         "worst input, often as a command that replays it. Rows marked info document the paper's method or a limit.\n"
-        "Exit codes: 0 all checks passed, 1 a check failed, 2 wrong command line, 130 or 143 interrupted.");
+        "Exit codes: 0 all checks passed, 1 a check failed, 2 wrong command line, 129, 130 or 143 interrupted.");
     command->callback([request, &exit_code] { exit_code = stability_command(*request); });
 }
 

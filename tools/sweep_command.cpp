@@ -137,7 +137,7 @@ void add_sweep_command(Command& program, int& exit_code) {
         "RMSE is half that between its halves; errors within 3 times of it are marked *.\n"
         "  strata sweep terrain --size 320x180 --N 1,2,3,10 --m 1,4,15 -o sweep\n"
         "  strata sweep wheel --rows seed=1,2,3 --columns estimator=stratified,sobol --reference none\n"
-        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 130 or 143 interrupted.");
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 129, 130 or 143 interrupted.");
     command->callback([request, texts, &exit_code] {
         request->axes = axis_request(*texts);
         exit_code = sweep_command(*request);

@@ -37,7 +37,10 @@ refuses() { # sentence status pattern arguments...
     expect_match "$sentence" "$status: $output" "$expected: $pattern"
 }
 
-# Until the program catches SIGINT: what a script starts in the background ignores it before, for good.
+# Before a program that is started in the background: there a script's programs ignore SIGINT for good.
+interruptible=(env --default-signal=INT,QUIT)
+
+# Until the program catches SIGINT.
 await_handler() { # pid
     local i
     for ((i = 0; i < 3000; ++i)); do

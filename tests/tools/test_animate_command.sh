@@ -110,7 +110,7 @@ check_films() {
 }
 
 check_signals() {
-    "$strata" animate hyperterrain --size 160x90 -N 8 --frames 0-999 --quiet -o h.png &
+    "${interruptible[@]}" "$strata" animate hyperterrain --size 160x90 -N 8 --frames 0-999 --quiet -o h.png &
     local pid=$! i
     for ((i = 0; i < 1500; ++i)); do
         [[ -e h.0001.png ]] && break

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include "src/image/scratch_files.h"
 #include "src/scene/key_text.h"
 #include "tools/process.h"
 
@@ -51,10 +52,13 @@ Words codec(const fs::path& film) {
 class TemporaryFilm {
   public:
     explicit TemporaryFilm(const fs::path& film)
-        : path_(film.parent_path() / fmt::format(".strata-film-{}{}", ::getpid(), film.extension().string())) {}
+        : path_(film.parent_path() / fmt::format(".strata-film-{}{}", ::getpid(), film.extension().string())) {
+        image::remember_scratch_file(path_.c_str());
+    }
     ~TemporaryFilm() {
         std::error_code ignored;
         fs::remove(path_, ignored);
+        image::forget_scratch_file(path_.c_str());
     }
     TemporaryFilm(const TemporaryFilm&) = delete;
     TemporaryFilm& operator=(const TemporaryFilm&) = delete;

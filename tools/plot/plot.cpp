@@ -9,6 +9,7 @@
 
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
+#include "src/image/scratch_files.h"
 #include "tools/plot/script.h"
 #include "tools/process.h"
 
@@ -90,18 +91,23 @@ class WorkFolder {
         std::string pattern = (fs::temp_directory_path() / "strata-plot-XXXXXX").string();
         if (::mkdtemp(pattern.data()) == nullptr) throw PlotError(pattern + ": this folder cannot be made");
         path_ = pattern;
+        script_ = path_ / "plot.gp";
+        drawn_ = path_ / "plot";
+        for (const fs::path* path : {&path_, &script_, &drawn_}) image::remember_scratch_file(path->c_str());
     }
     ~WorkFolder() {
         std::error_code ignored;
         fs::remove_all(path_, ignored);
+        for (const fs::path* path : {&path_, &script_, &drawn_}) image::forget_scratch_file(path->c_str());
     }
     WorkFolder(const WorkFolder&) = delete;
     WorkFolder& operator=(const WorkFolder&) = delete;
 
-    fs::path operator/(const char* name) const { return path_ / name; }
+    const fs::path& script() const { return script_; }
+    const fs::path& drawn() const { return drawn_; }
 
   private:
-    fs::path path_;
+    fs::path path_, script_, drawn_;
 };
 
 std::vector<unsigned char> bytes_of(const fs::path& path) {
@@ -130,7 +136,7 @@ void write_plot(const Plot& plot, const fs::path& path) {
     check_plot(plot);
     const fs::path program = gnuplot();
     const WorkFolder folder;
-    const fs::path script = folder / "plot.gp", drawn = folder / "plot";
+    const fs::path &script = folder.script(), &drawn = folder.drawn();
     std::ofstream(script, std::ios::binary) << plot_script(plot, format, drawn.string());
     // -d: no start-up files of the user or the system.
     run_program(program, {"-d", script.string()});
