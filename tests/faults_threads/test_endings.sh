@@ -36,8 +36,8 @@ check_threads() {
 }
 
 # Sets pid; the program listens, and a picture is in the making.
-start() { # environment of signals, arguments...
-    env "$1" "$strata" render hyperterrain --size 320x180 -N 64 --quiet -o a.exr "${@:2}" &
+start() { # options of env...
+    env "$@" "$strata" render hyperterrain --size 320x180 -N 64 --quiet -o a.exr &
     pid=$!
     await_handler "$pid"
     for ((i = 0; i < 500; ++i)); do
@@ -56,7 +56,7 @@ check_hangup() {
 }
 
 check_ignored() {
-    start --ignore-signal=HUP
+    start --default-signal=INT --ignore-signal=HUP
     kill -HUP "$pid"
     sleep 0.3
     expect 'under nohup a render goes on' "$(kill -0 "$pid" && echo alive)" alive
