@@ -74,7 +74,7 @@ class Animator {
   private:
     std::vector<Todo> find_work() const {
         std::vector<Todo> work;
-        for (int frame = job_.range.first; frame <= job_.range.last; ++frame) {
+        for (const int frame : job_.range) {
             Todo todo = files_to_write(job_, frame);
             if (!todo.missing.empty()) work.push_back(std::move(todo));
         }
@@ -85,7 +85,7 @@ class Animator {
 
     double total() const {
         double a_frame = 0;
-        for (const scene::Scene& scene : frame_scenes(job_, job_.range.first)) {
+        for (const scene::Scene& scene : frame_scenes(job_, job_.range.first())) {
             a_frame += expected_rays(scene, window(scene));
         }
         return a_frame * static_cast<double>(work_.size());
@@ -140,7 +140,7 @@ void remove_scratch(const AnimateJob& job) {
     if (job.scratch.empty()) return;
     std::error_code ignored;
     const FramePattern& pattern = job.frames[job.film_source].pattern;
-    for (int frame = job.range.first; frame <= job.range.last; ++frame) fs::remove(pattern.path(frame), ignored);
+    for (const int frame : job.range) fs::remove(pattern.path(frame), ignored);
     fs::remove(job.scratch, ignored);  // unless there is something else in it
 }
 
@@ -172,16 +172,16 @@ int animate_command(const AnimateRequest& request) {
     if (!animator.run()) return stopped(job, animator);
     say_what_was_done(job, animator);
     for (const fs::path& film : job.films) {
+        const FilmTiming timing = film_timing(film, job.range, job.scene.shutter.fps);
         try {
-            encode_film(film, job.frames[job.film_source].pattern, job.range, job.scene.shutter.fps);
+            encode_film(film, job.frames[job.film_source].pattern, timing, job.width, job.height);
         } catch (const std::exception&) {
             // The signal that stopped this program stopped ffmpeg too.
             if (!cancel.requested()) throw;
         }
         if (cancel.requested()) return kExitSignal + render::cancelling_signal();
         if (!job.quiet) {
-            print_out(fmt::format("wrote    {} ({} frames, {:g} s)\n", film.string(), job.range.count(),
-                                  job.range.count() / job.scene.shutter.fps));
+            print_out(fmt::format("wrote    {} ({})\n", film.string(), described(timing, job.range)));
         }
     }
     remove_scratch(job);
@@ -206,9 +206,11 @@ void add_animate_command(Command& program, int& exit_code) {
     auto request = std::make_shared<AnimateRequest>();
     request->scene.add_to(*command);
     command
-        ->add_option("--frames", request->frames,
-                     "Frames first-last, both included; default one loop of a spin or wheel, or to the last camera key")
-        ->type_name("A-B");
+        ->add_option(
+            "--frames", request->frames,
+            "Frames first-last, both included, 0-100x2 for every second one, lists such as 0,2,7-9; default one "
+            "loop of a spin or wheel, or to the last camera key")
+        ->type_name("A-BxS,...");
     command
         ->add_option("-o,--output", request->outputs,
                      "NAME.png, .exr, .tif or .jpg: frames NAME.0001.png ... ('#'s choose where the number goes); "
@@ -226,7 +228,8 @@ void add_animate_command(Command& program, int& exit_code) {
     command->add_option("--format", request->format, "EXR channels: half or float; default half")->type_name("NAME");
     command->add_flag("--quiet", request->quiet, "No progress, summary or warnings");
     command->footer(
-        "Frame k begins at k / shutter.fps seconds. What moves: camera.keys, surface.spin_deg_per_s, surface.drift, "
+        "Frame k begins at k / shutter.fps seconds; a film of every second one plays half as many a second. What "
+        "moves: camera.keys, surface.spin_deg_per_s, surface.drift, "
         "the\n"
         "wheel. Motion blur: shutter.open_s > 0, by a B-spline of order --time-order, N * N samples in all.\n"
         "A frame that is there, whole and of the same settings, is kept. One of other settings is refused before\n"
