@@ -228,14 +228,16 @@ void add_animate_command(Command& program, int& exit_code) {
     command->add_option("--format", request->format, "EXR channels: half or float; default half")->type_name("NAME");
     command->add_flag("--quiet", request->quiet, "No progress, summary or warnings");
     command->footer(
-        "Frame k begins at k / shutter.fps seconds; a film of every second one plays half as many a second. What "
-        "moves: camera.keys, surface.spin_deg_per_s, surface.drift, "
+        "Frame k begins at k / shutter.fps seconds. What moves: camera.keys, surface.spin_deg_per_s, surface.drift, "
         "the\n"
         "wheel. Motion blur: shutter.open_s > 0, by a B-spline of order --time-order, N * N samples in all.\n"
         "A frame that is there, whole and of the same settings, is kept. One of other settings is refused before\n"
         "anything is rendered, unless --overwrite is given. Films alone keep their frames in FILE.frames until they "
         "are\n"
         "encoded; interrupted, the same command goes on from them.\n"
+        "A film of every second frame (--frames 0-100x2) shows half as many a second. A GIF shows up to 50 a second "
+        "and\n"
+        "leaves out the others; it plays as long as the frames take, to a hundredth of a second.\n"
         "The built-in scenes isosurface and wheel are compared side by side unless --columns says otherwise.\n"
         "  strata animate isosurface                           loops: no antialiasing | in space and time\n"
         "  strata animate planet --frames 0-99 -o 'out/planet.####.exr' -o planet.mp4 --set shutter.open_s=0.02\n"

@@ -38,7 +38,8 @@ refuses() { # sentence status pattern arguments...
 }
 
 # Before a program that is started in the background: there a script's programs ignore SIGINT for good.
-interruptible=(env --default-signal=INT,QUIT)
+# shellcheck disable=SC2034 # used by the scripts that source this
+interruptible=(env --default-signal=INT --default-signal=QUIT)
 
 # Until the program catches SIGINT.
 await_handler() { # pid

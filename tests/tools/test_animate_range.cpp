@@ -3,9 +3,15 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
 #include "shaders_cpu/wheel.h"
 #include "src/trace/placement.h"
 #include "tools/animate/frames.h"
+#include "tools/animate/timing.h"
 #include "tools/errors.h"
 
 using namespace strata;
