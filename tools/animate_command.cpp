@@ -219,7 +219,7 @@ void add_animate_command(Command& program, int& exit_code) {
         ->repeated();
     add_column_options(*command, *request);
     command->add_flag("--overwrite", request->overwrite, "Render and replace frames that are there");
-    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
         ->type_name("n")
         ->capture_default_str();
     command->add_option("--tracer", request->tracer, "fast, or reference")->type_name("NAME")->capture_default_str();

@@ -98,7 +98,8 @@ void add_explain_command(Command& program, int& exit_code) {
     command->add_option("--crop", request->crop, "As for render: pixels [x0,x1) x [y0,y1) of the frame alone")
         ->type_name("x0,y0,x1,y1");
     command
-        ->add_option("--threads", request->threads, "As for render: threads, up to 1024; 0: as many as the machine has")
+        ->add_option("--threads", request->threads,
+                     "As for render: threads, up to 1024; 0: as many as machine and container give")
         ->type_name("n")
         ->capture_default_str();
     command->add_option("--tracer", request->tracer, "As for render: fast or reference; default fast")

@@ -138,7 +138,7 @@ void add_figures_command(Command& program, int& exit_code) {
             "stay")
         ->type_name("NAME")
         ->capture_default_str();
-    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
         ->type_name("n")
         ->capture_default_str();
     command->add_flag("--overwrite", request->overwrite, "Make figures anew that are there already");

@@ -149,7 +149,7 @@ void add_render_command(Command& program, int& exit_code) {
         ->add_option("--crop", request->crop,
                      "Render pixels [x0,x1) x [y0,y1) of the frame alone, y down; default the whole frame")
         ->type_name("x0,y0,x1,y1");
-    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
         ->type_name("n")
         ->capture_default_str();
     command

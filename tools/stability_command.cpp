@@ -144,7 +144,7 @@ void add_stability_command(Command& program, int& exit_code) {
     command->add_option("--seed", request->seed, "Of the random inputs; the table is the same for the same seed")
         ->capture_default_str()
         ->type_name("S");
-    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
         ->capture_default_str()
         ->type_name("n");
     command->add_flag("--quiet", request->quiet, "No progress, and no table unless something failed");

@@ -124,7 +124,7 @@ void add_strip_command(Command& program, int& exit_code) {
     command->add_flag("--parts", request->parts, "Also write what is shown as float EXR: NAME-1.exr, NAME-2.exr, ...");
     command->add_option("-o,--output", request->output, "The strip: .png, .jpg or .tif; default strip.png")
         ->type_name("FILE");
-    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
         ->type_name("n")
         ->capture_default_str();
     command->add_option("--simd", request->simd, "avx512, avx2, sse4 or scalar; default the best that is here")

@@ -117,7 +117,7 @@ void add_sweep_command(Command& program, int& exit_code) {
         ->type_name("N");
     command->add_option("-o,--output", request->output, "The folder to write to; default SCENE-sweep")
         ->type_name("FOLDER");
-    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
         ->type_name("n")
         ->capture_default_str();
     command->add_option("--simd", request->simd, "avx512, avx2, sse4 or scalar; default the best that is here")
