@@ -2,47 +2,72 @@
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
-#include <mutex>
 
 #include "src/render/processors.h"
+#include "src/render/startable_threads.h"
+#include "src/render/task_seam_tbb.h"
 
 namespace strata::render {
+
+struct TaskSeam::Arena {
+    explicit Arena(int threads) : tbb(threads) {}
+    TbbArena tbb;
+};
 
 namespace {
 
 struct Job {
-    const TaskSeam::Body& body;
+    const TaskSeam::Body* body;
     std::int64_t count;
     std::atomic<std::int64_t> next{0};
+    std::atomic<int> order{0};  // released before the start and at every worker's end, acquired at the other side
     std::atomic<bool> failed{false};
-    std::mutex mutex{};
-    std::exception_ptr first_failure{};
 };
 
-void work(Job& job, int worker) {
+// Marks a worker's end also when a body throws.
+struct WorkerScope {
+    explicit WorkerScope(Job& job) : job_(job) { job_.order.load(std::memory_order_acquire); }
+    ~WorkerScope() { job_.order.fetch_add(1, std::memory_order_acq_rel); }
+    WorkerScope(const WorkerScope&) = delete;
+    WorkerScope& operator=(const WorkerScope&) = delete;
+
+  private:
+    Job& job_;
+};
+
+void work(void* job_pointer, int worker) {
+    Job& job = *static_cast<Job*>(job_pointer);
+    const WorkerScope scope(job);
     try {
         for (;;) {
             const std::int64_t index = job.next.fetch_add(1, std::memory_order_relaxed);
             if (index >= job.count || job.failed.load(std::memory_order_relaxed)) return;
-            job.body(worker, index);
+            (*job.body)(worker, index);
         }
     } catch (...) {
         job.failed.store(true, std::memory_order_relaxed);
-        const std::lock_guard lock(job.mutex);
-        if (!job.first_failure) job.first_failure = std::current_exception();
+        throw;
     }
 }
 
 }  // namespace
 
-TaskSeam::TaskSeam(int threads) : crew_(threads > 0 ? threads : available_processors()) {}
+TaskSeam::TaskSeam(int threads)
+    : threads_(1 + startable_threads((threads > 0 ? threads : available_processors()) - 1)),
+      arena_(std::make_unique<Arena>(threads_)) {}
+
+TaskSeam::~TaskSeam() = default;
 
 void TaskSeam::run(std::int64_t count, const Body& body) {
     if (count <= 0) return;
-    Job job{body, count};
-    crew_.run(static_cast<int>(std::min<std::int64_t>(threads(), count)), [&](int worker) { work(job, worker); });
-    if (job.first_failure) std::rethrow_exception(job.first_failure);
+    Job job{&body, count};
+    job.order.store(1, std::memory_order_release);
+    const int workers = static_cast<int>(std::min<std::int64_t>(threads_, count));
+    struct Join {
+        std::atomic<int>& order;
+        ~Join() { order.load(std::memory_order_acquire); }
+    } join{job.order};
+    arena_->tbb.run(workers, &work, &job);
 }
 
 }  // namespace strata::render

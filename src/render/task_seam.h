@@ -1,20 +1,22 @@
-// The one place through which work reaches several threads.
+// The one place through which work reaches TBB. Debian's TBB is built without ThreadSanitizer, which therefore sees
+// neither a task's start nor its join as an ordering; the seam states both by an atomic of its own, so that no
+// suppression is needed and a race in the work itself is still found.
 #pragma once
 
 #include <cstdint>
 #include <functional>
-
-#include "src/render/crew.h"
+#include <memory>
 
 namespace strata::render {
 
 class TaskSeam {
   public:
     // threads: any number; 0 takes as many as this process may use (available_processors()). Fewer where the system
-    // gives no more.
+    // starts no more.
     explicit TaskSeam(int threads);
+    ~TaskSeam();
 
-    int threads() const { return crew_.size(); }
+    int threads() const { return threads_; }
 
     // Calls body(worker, index) once for every index of [0,count), handed out in ascending order, on up to threads()
     // workers, and returns when all are done. A worker, a number of [0,threads()), is never in two calls at once: state
@@ -24,7 +26,10 @@ class TaskSeam {
     void run(std::int64_t count, const Body& body);
 
   private:
-    Crew crew_;
+    struct Arena;
+
+    int threads_;
+    std::unique_ptr<Arena> arena_;
 };
 
 }  // namespace strata::render

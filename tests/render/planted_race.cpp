@@ -1,5 +1,5 @@
 // A race on purpose: two tasks write one plain int through the seam. Under ThreadSanitizer this program must be caught,
-// or the seam orders what it should not.
+// or the seam's annotations hide what they should not.
 #include <atomic>
 #include <cstdio>
 
