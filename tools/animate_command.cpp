@@ -77,7 +77,7 @@ class Animator {
   private:
     std::vector<Todo> find_work() const {
         std::vector<Todo> work;
-        for (int frame = job_.range.first; frame <= job_.range.last; ++frame) {
+        for (const int frame : job_.range) {
             Todo todo = files_to_write(job_, frame);
             if (!todo.missing.empty()) work.push_back(std::move(todo));
         }
@@ -88,7 +88,7 @@ class Animator {
 
     double total() const {
         double a_frame = 0;
-        for (const scene::Scene& scene : frame_scenes(job_, job_.range.first)) {
+        for (const scene::Scene& scene : frame_scenes(job_, job_.range.first())) {
             a_frame += expected_rays(scene, window(scene));
         }
         return a_frame * static_cast<double>(work_.size());
@@ -143,7 +143,7 @@ void remove_scratch(const AnimateJob& job) {
     if (job.scratch.empty()) return;
     std::error_code ignored;
     const FramePattern& pattern = job.frames[job.film_source].pattern;
-    for (int frame = job.range.first; frame <= job.range.last; ++frame) fs::remove(pattern.path(frame), ignored);
+    for (const int frame : job.range) fs::remove(pattern.path(frame), ignored);
     fs::remove(job.scratch, ignored);  // unless there is something else in it
 }
 
@@ -175,16 +175,16 @@ int animate_command(const AnimateRequest& request) {
     if (!animator.run()) return stopped(job, animator);
     say_what_was_done(job, animator);
     for (const fs::path& film : job.films) {
+        const FilmTiming timing = film_timing(film, job.range, job.scene.shutter.fps);
         try {
-            encode_film(film, job.frames[job.film_source].pattern, job.range, job.scene.shutter.fps);
+            encode_film(film, job.frames[job.film_source].pattern, timing, job.width, job.height);
         } catch (const std::exception&) {
             // The signal that stopped this program stopped ffmpeg too.
             if (!cancel.requested()) throw;
         }
         if (cancel.requested()) return kExitSignal + render::cancelling_signal();
         if (!job.quiet) {
-            print_out(fmt::format("wrote    {} ({} frames, {:g} s)\n", film.string(), job.range.count(),
-                                  job.range.count() / job.scene.shutter.fps));
+            print_out(fmt::format("wrote    {} ({})\n", film.string(), described(timing, job.range)));
         }
     }
     remove_scratch(job);
@@ -209,9 +209,11 @@ void add_animate_command(Command& program, int& exit_code) {
     auto request = std::make_shared<AnimateRequest>();
     request->scene.add_to(*command);
     command
-        ->add_option("--frames", request->frames,
-                     "Frames first-last, both included; default one loop of a spin or wheel, or to the last camera key")
-        ->type_name("A-B");
+        ->add_option(
+            "--frames", request->frames,
+            "Frames first-last, both included, 0-100x2 for every second one, lists such as 0,2,7-9; default one "
+            "loop of a spin or wheel, or to the last camera key")
+        ->type_name("A-BxS,...");
     command
         ->add_option("-o,--output", request->outputs,
                      "NAME.png, .exr, .tif or .jpg: frames NAME.0001.png ... ('#'s choose where the number goes); "
@@ -220,7 +222,7 @@ void add_animate_command(Command& program, int& exit_code) {
         ->repeated();
     add_column_options(*command, *request);
     command->add_flag("--overwrite", request->overwrite, "Render and replace frames that are there");
-    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
         ->type_name("n")
         ->capture_default_str();
     command->add_option("--tracer", request->tracer, "fast, or reference")->type_name("NAME")->capture_default_str();
@@ -238,11 +240,14 @@ void add_animate_command(Command& program, int& exit_code) {
         "frames in FILE.frames until they "
         "are\n"
         "encoded; interrupted, the same command goes on from them.\n"
+        "A film of every second frame (--frames 0-100x2) shows half as many a second. A GIF shows up to 50 a second "
+        "and\n"
+        "leaves out the others; it plays as long as the frames take, to a hundredth of a second.\n"
         "The built-in scenes isosurface and wheel are compared side by side unless --columns says otherwise.\n"
         "  strata animate isosurface                           loops: no antialiasing | in space and time\n"
         "  strata animate planet --frames 0-99 -o 'out/planet.####.exr' -o planet.mp4 --set shutter.open_s=0.02\n"
         "  strata animate wheel --columns \"none; l=1; l=4\" --size 320x320 -o wheel.gif\n"
-        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 130 or 143 interrupted.");
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 129, 130 or 143 interrupted.");
     command->callback([request, command, &exit_code] {
         if (command->count("--frame") > 0) throw UsageError("--frame: allowed: --frames A-B, or --frames A for one");
         exit_code = animate_command(*request);

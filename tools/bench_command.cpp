@@ -154,8 +154,9 @@ void add_bench_command(Command& program, int& exit_code) {
         "target; "
         "cases are\nmeasured in turns. Verdicts: 'PASS, aim', 'PASS' (the floor), 'SHORT'. They do not change the exit "
         "code.\n"
-        "On SIGINT or SIGTERM the table is of the rounds that are finished, and no file is written.\n"
-        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or a file that --against cannot compare, 130 or "
+        "On SIGINT, SIGTERM or SIGHUP the table is of the rounds that are finished, and no file is written.\n"
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or a file that --against cannot compare, 129, "
+        "130 or "
         "143\ninterrupted.");
     command->callback([request, &exit_code] { exit_code = bench_command(*request); });
 }

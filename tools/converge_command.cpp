@@ -203,8 +203,8 @@ void add_converge_command(Command& program, int& exit_code) {
         "interval, over the seeds.\n"
         "limited_by: 'reference', the error is within three times the reference's own; 'rounding', within that of "
         "floats.\n"
-        "On SIGINT or SIGTERM the report is of the seeds that are finished.\n"
-        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 130 or 143 interrupted.");
+        "On SIGINT, SIGTERM or SIGHUP the report is of the seeds that are finished.\n"
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 129, 130 or 143 interrupted.");
     command->callback([request, &exit_code] { exit_code = converge_command(*request); });
 }
 

@@ -6,6 +6,7 @@
 #include "noise/simd_target.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
+#include "src/render/cancel.h"
 #include "src/render/progressive.h"
 #include "tools/aov.h"
 #include "tools/commands.h"
@@ -46,6 +47,7 @@ void check_json(const ExplainRequest& request, const LoadedScene& loaded) {
 }
 
 int explain_command(const ExplainRequest& request) {
+    render::end_on_signals();
     const int threads = parse_integer("--threads", request.threads, 0, kMostThreads);
     LoadedScene loaded = request.scene.load();
     if (!request.simd.empty()) {
@@ -91,7 +93,8 @@ void add_explain_command(Command& program, int& exit_code) {
     command->add_option("--crop", request->crop, "As for render: pixels [x0,x1) x [y0,y1) of the frame alone")
         ->type_name("x0,y0,x1,y1");
     command
-        ->add_option("--threads", request->threads, "As for render: threads, up to 1024; 0: as many as the machine has")
+        ->add_option("--threads", request->threads,
+                     "As for render: threads, up to 1024; 0: as many as machine and container give")
         ->type_name("n")
         ->capture_default_str();
     command->add_option("--tracer", request->tracer, "As for render: fast or reference; default fast")

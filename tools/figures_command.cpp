@@ -138,7 +138,7 @@ void add_figures_command(Command& program, int& exit_code) {
             "stay")
         ->type_name("NAME")
         ->capture_default_str();
-    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
         ->type_name("n")
         ->capture_default_str();
     command->add_flag("--overwrite", request->overwrite, "Make figures anew that are there already");
@@ -157,7 +157,7 @@ void add_figures_command(Command& program, int& exit_code) {
         "figure-K.json: one line with every parameter and with what was chosen where the paper does not tell.\n"
         "A figure that is there, whole, with the same parameters and by the same version, is kept; one with\n"
         "an empty, cut or damaged file is made again; plots are drawn anew.\n"
-        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, 130 or 143 interrupted.");
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, 129, 130 or 143 interrupted.");
     command->callback([request, &exit_code] { exit_code = figures_command(*request); });
 }
 

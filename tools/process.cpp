@@ -8,7 +8,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
@@ -67,6 +69,43 @@ class OutputPipe {
     std::array<int, 2> ends_{-1, -1};
 };
 
+bool ignores_interrupts() {
+    struct sigaction present = {};
+    return ::sigaction(SIGINT, nullptr, &present) == 0 && present.sa_handler == SIG_IGN;
+}
+
+// The programs that are running, for handlers of signals; 0: a free place.
+std::array<std::atomic<pid_t>, 16> running{};
+static_assert(std::atomic<pid_t>::is_always_lock_free);
+
+class Running {
+  public:
+    explicit Running(pid_t child) : child_(child) {
+        for (auto& place : running) {
+            pid_t free = 0;
+            if (place.compare_exchange_strong(free, child)) return;
+        }
+    }
+    ~Running() {
+        for (auto& place : running) {
+            pid_t child = child_;
+            if (place.compare_exchange_strong(child, 0)) return;
+        }
+    }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+
+  private:
+    pid_t child_;
+};
+
+// Until it has ended, still to be reaped: its number is its own until then.
+void await_end(pid_t child) {
+    siginfo_t info;
+    while (::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+    }
+}
+
 pid_t start(const fs::path& program, const std::vector<std::string>& arguments, const OutputPipe& output) {
     std::vector<std::string> words{program.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -75,14 +114,28 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments, 
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
 
+    // Ignored here to become errors of writing; elsewhere they end whoever is not prepared.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t defaults;
+    sigemptyset(&defaults);
+    sigaddset(&defaults, SIGPIPE);
+    sigaddset(&defaults, SIGXFSZ);
+    posix_spawnattr_setsigdefault(&attributes, &defaults);
+    short flags = POSIX_SPAWN_SETSIGDEF;
+    // Programs that catch SIGINT though it was ignored would stop at a Ctrl-C that is not meant for this group.
+    if (ignores_interrupts()) flags = static_cast<short>(flags | POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setflags(&attributes, flags);
+
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, output.writing_end(), STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, output.writing_end(), STDERR_FILENO);
     pid_t child = 0;
-    const int error = ::posix_spawn(&child, program.c_str(), &actions, nullptr, pointers.data(), environ);
+    const int error = ::posix_spawn(&child, program.c_str(), &actions, &attributes, pointers.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
     if (error != 0) fail(program, std::strerror(error));
     return child;
 }
@@ -95,6 +148,12 @@ int wait_for(pid_t child, rusage& usage) {
 }
 
 }  // namespace
+
+void end_programs(int signal) noexcept {
+    for (const auto& place : running) {
+        if (const pid_t child = place.load(); child > 0) ::kill(child, signal);
+    }
+}
 
 namespace {
 
@@ -124,7 +183,12 @@ ProgramRun run_program(const fs::path& program, const std::vector<std::string>& 
     OutputPipe output(program);
     const pid_t child = start(program, arguments, output);
     output.close_writing();
-    std::string words = output.read_all();
+    std::string words;
+    {
+        const Running reached_by_signals(child);
+        words = output.read_all();
+        await_end(child);
+    }
     rusage usage{};
     const int status = wait_for(child, usage);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {

@@ -29,7 +29,11 @@ struct ProgramRun {
 };
 
 // Runs a program to its end, its standard input empty. Its output is caught and shown only when it fails: throws
-// ProcessError then, and when it could not be started. SIGINT and SIGTERM reach it as they reach this process.
+// ProcessError then, and when it could not be started. It ends with this process (end_programs()), and ignores
+// what this one ignores.
 ProgramRun run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments);
+
+// Sends a signal to the programs that are running. Async-signal-safe.
+void end_programs(int signal) noexcept;
 
 }  // namespace strata::tools

@@ -149,7 +149,7 @@ void add_render_command(Command& program, int& exit_code) {
         ->add_option("--crop", request->crop,
                      "Render pixels [x0,x1) x [y0,y1) of the frame alone, y down; default the whole frame")
         ->type_name("x0,y0,x1,y1");
-    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
         ->type_name("n")
         ->capture_default_str();
     command
@@ -205,9 +205,9 @@ void add_render_command(Command& program, int& exit_code) {
         "again."
         "\nThe noise told from differences leaves out what all passes share: the bias, of order 1/N^2, of jittered and "
         "shared.\n"
-        "On SIGINT or SIGTERM what is finished is written as NAME.partial.EXT, of several passes the mean of "
+        "On SIGINT, SIGTERM or SIGHUP what is finished is written as NAME.partial.EXT, of several passes the mean of "
         "the whole ones; an earlier NAME.EXT stays.\n"
-        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 130 or 143 interrupted.");
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 129, 130 or 143 interrupted.");
     command->callback([request, &exit_code] { exit_code = render_command(*request); });
 }
 

@@ -1,7 +1,6 @@
 #include "tools/render_job.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <system_error>
@@ -13,6 +12,7 @@
 #include "src/image/read.h"
 #include "src/image/stream_target.h"
 #include "src/image/text.h"
+#include "src/render/processors.h"
 #include "src/scene/enum_names.h"
 #include "src/scene/key_text.h"
 #include "src/scene/typed_number.h"
@@ -79,11 +79,11 @@ constexpr double kBytesAPixelOfPasses = 24 + 13 + 13;
 void check_memory(const render::Window& window, const render::PassGoal& goal) {
     if (goal.passes == 1) return;
     const double needed = kBytesAPixelOfPasses * window.width() * window.height();
-    const double present =
-        static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+    const double present = static_cast<double>(render::available_memory_bytes());
     if (needed <= present) return;
     throw UsageError(
-        fmt::format("{}x{} pixels in passes need {:.1f} GB of memory, this machine has {:.1f} GB; allowed: one pass, a "
+        fmt::format("{}x{} pixels in passes need {:.1f} GB of memory, there are {:.1f} GB (of this machine, or of its "
+                    "container); allowed: one pass, a "
                     "smaller --size, or the frame in parts by --crop",
                     window.width(), window.height(), needed / 1e9, present / 1e9));
 }

@@ -122,14 +122,14 @@ void add_stability_command(Command& program, int& exit_code) {
     command->add_option("--seed", request->seed, "Of the random inputs; the table is the same for the same seed")
         ->capture_default_str()
         ->type_name("S");
-    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
         ->capture_default_str()
         ->type_name("n");
     command->add_flag("--quiet", request->quiet, "No progress, and no table unless something failed");
     command->footer(
         "Each row: what was measured, the bound that the arithmetic or a stated contract gives, and in the files the\n"
         "worst input, often as a command that replays it. Rows marked info document the paper's method or a limit.\n"
-        "Exit codes: 0 all checks passed, 1 a check failed, 2 wrong command line, 130 or 143 interrupted.");
+        "Exit codes: 0 all checks passed, 1 a check failed, 2 wrong command line, 129, 130 or 143 interrupted.");
     command->callback([request, &exit_code] { exit_code = stability_command(*request); });
 }
 

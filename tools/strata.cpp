@@ -8,11 +8,14 @@
 #include <new>
 #include <sstream>
 
+#include "src/render/cancel.h"
 #include "src/scene/key_text.h"
 #include "src/scene/scene_error.h"
 #include "src/scene/suggest.h"
 #include "tools/commands.h"
+#include "tools/endings.h"
 #include "tools/errors.h"
+#include "tools/process.h"
 #include "tools/standard_output.h"
 
 namespace {
@@ -129,8 +132,12 @@ int run(int argc, char** argv) {
         return fail(error.what(), strata::tools::kExitUsage);
     } catch (const std::bad_alloc&) {
         return fail("out of memory; a smaller --size, or --crop, needs less", strata::tools::kExitRuntime);
+    } catch (const strata::tools::ProcessError& error) {
+        // The signal that stopped this program stopped the one that it ran.
+        const int signal = strata::render::cancelling_signal();
+        return fail(error.what(), signal != 0 ? strata::tools::kExitSignal + signal : strata::tools::kExitRuntime);
     } catch (const std::exception& error) {
-        return fail(error.what(), strata::tools::kExitRuntime);
+        return fail(strata::tools::message_of(error).c_str(), strata::tools::kExitRuntime);
     }
     return exit_code;
 }
@@ -140,5 +147,6 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     std::setlocale(LC_ALL, "C");
     strata::tools::guard_standard_streams();
+    strata::tools::prepare_endings();
     return strata::tools::finish_output(run(argc, argv));
 }

@@ -126,7 +126,7 @@ void add_strip_command(Command& program, int& exit_code) {
         ->add_option("-o,--output", request->output,
                      "The strip: .png, .jpg or .tif, or - for standard output; default strip.png")
         ->type_name("FILE");
-    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
         ->type_name("n")
         ->capture_default_str();
     command->add_option("--simd", request->simd, "avx512, avx2, sse4 or scalar; default the best that is here")
@@ -138,7 +138,8 @@ void add_strip_command(Command& program, int& exit_code) {
         "decoded and their exposure undone; what they clipped stays clipped.\n"
         "  strata strip a.exr b.exr --crop 100,60,140,90 --zoom 8 -o strip.png\n"
         "  strata strip --scene terrain --columns \"none; N=2; N=10\" --crop 600,330,640,360 --reference N=10 --rmse\n"
-        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, scene or picture, 130 or 143 interrupted.");
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, scene or picture, 129, 130 or 143 "
+        "interrupted.");
     command->callback([request, command, &exit_code] {
         request->has_scene = command->count("--scene") > 0;
         exit_code = strip_command(*request);

@@ -122,7 +122,7 @@ void add_sweep_command(Command& program, int& exit_code) {
         ->type_name("N");
     command->add_option("-o,--output", request->output, "The folder to write to; default SCENE-sweep")
         ->type_name("FOLDER");
-    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as the machine has")
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
         ->type_name("n")
         ->capture_default_str();
     command->add_option("--simd", request->simd, "avx512, avx2, sse4 or scalar; default the best that is here")
@@ -142,7 +142,7 @@ void add_sweep_command(Command& program, int& exit_code) {
         "RMSE is half that between its halves; errors within 3 times of it are marked *.\n"
         "  strata sweep terrain --size 320x180 --N 1,2,3,10 --m 1,4,15 -o sweep\n"
         "  strata sweep wheel --rows seed=1,2,3 --columns estimator=stratified,sobol --reference none\n"
-        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 130 or 143 interrupted.");
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 129, 130 or 143 interrupted.");
     command->callback([request, texts, &exit_code] {
         request->axes = axis_request(*texts);
         exit_code = sweep_command(*request);

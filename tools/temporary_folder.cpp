@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "src/image/scratch_files.h"
+
 namespace strata::tools {
 
 namespace fs = std::filesystem;
@@ -21,11 +23,19 @@ TemporaryFolder::TemporaryFolder(const std::string& name) {
                                              parent.string(), std::generic_category().message(errno)));
     }
     path_ = pattern;
+    image::remember_scratch_file(path_.c_str());
 }
 
 TemporaryFolder::~TemporaryFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
+    for (const fs::path& file : files_) image::forget_scratch_file(file.c_str());
+    image::forget_scratch_file(path_.c_str());
+}
+
+fs::path TemporaryFolder::file(const std::string& name) {
+    image::remember_scratch_file(files_.emplace_back(path_ / name).c_str());
+    return files_.back();
 }
 
 }  // namespace strata::tools

@@ -12,6 +12,7 @@
 
 #include "src/image/format.h"
 #include "src/image/image_error.h"
+#include "src/image/scratch_files.h"
 
 namespace strata::image {
 namespace fs = std::filesystem;
@@ -75,11 +76,13 @@ OutputFile::OutputFile(const fs::path& target) : target_(resolve_links(target)),
         descriptor_ = ::open(hidden_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && (errno == EEXIST || errno == EINTR));
     if (descriptor_ < 0) fail(target_, fmt::format("no new file in its folder: {}", system_reason(errno)));
+    remember_scratch_file(hidden_.c_str());
 }
 
 OutputFile::~OutputFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
     if (!is_in_place_ && !stream_) ::unlink(hidden_.c_str());
+    forget_scratch_file(hidden_.c_str());
 }
 
 void OutputFile::write_at(std::int64_t offset, std::span<const unsigned char> bytes) {

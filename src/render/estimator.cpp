@@ -44,7 +44,7 @@ EstimatorSettings estimator_settings(const scene::Scene& scene) {
     settings.m = scene.sampling.m;
     settings.time_order = scene.sampling.time_order;
     settings.seed = seed_of_frame(scene.sampling.seed, scene.shutter.frame);
-    settings.shutter = {scene.shutter.frame / scene.shutter.fps, scene.shutter.open_s};
+    settings.shutter = {scene.shutter.time_s(), scene.shutter.open_s};
     // Where nothing moves any time does: no times are drawn.
     if (!scene::needs_time_samples(scene)) settings.shutter = {settings.shutter.middle_s(), 0.0};
     return settings;

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <thread>
 
+#include "src/render/processors.h"
+#include "src/render/startable_threads.h"
 #include "src/render/task_seam_tbb.h"
 
 namespace strata::render {
@@ -52,7 +53,7 @@ void work(void* job_pointer, int worker) {
 }  // namespace
 
 TaskSeam::TaskSeam(int threads)
-    : threads_(threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
+    : threads_(1 + startable_threads((threads > 0 ? threads : available_processors()) - 1)),
       arena_(std::make_unique<Arena>(threads_)) {}
 
 TaskSeam::~TaskSeam() = default;

@@ -11,7 +11,8 @@ namespace strata::render {
 
 class TaskSeam {
   public:
-    // threads: any number; 0 takes as many as the machine has.
+    // threads: any number; 0 takes as many as this process may use (available_processors()). Fewer where the system
+    // starts no more.
     explicit TaskSeam(int threads);
     ~TaskSeam();
 

@@ -63,7 +63,7 @@ double limited_slope(double before, double after, double h_before, double h_afte
 
 TimeSpan open_shutter(const Scene& scene) {
     const Shutter& shutter = scene.shutter;
-    const double middle = shutter.frame / shutter.fps + 0.5 * shutter.open_s;
+    const double middle = shutter.time_s() + 0.5 * shutter.open_s;
     const double half =
         scene.sampling.estimator == EstimatorKind::none ? 0.0 : 0.5 * shutter.open_s * scene.sampling.time_order;
     return {middle - half, middle + half};

@@ -36,6 +36,12 @@ std::string triple_text(const glm::dvec3& v) {
     return fmt::format("[{}, {}, {}]", number_text(v.x), number_text(v.y), number_text(v.z));
 }
 
+// A fraction is no number of TOML.
+std::string rate_text(const Rate& rate) {
+    const std::string text = rate.text();
+    return text.find('/') == std::string::npos ? text : quoted(text);
+}
+
 std::string camera_keys_text(const std::vector<CameraKey>& entries) {
     if (entries.empty()) return "[]";
     std::string text = "[\n";
@@ -99,6 +105,7 @@ std::optional<std::string> time_problem(const std::vector<CameraKey>& entries, s
 std::string value_text(const Key& key) {
     return std::visit(Overload{[](const bool* field) { return std::string(*field ? "true" : "false"); },
                                [](const double* field) { return number_text(*field); },
+                               [](const Rate* field) { return rate_text(*field); },
                                [](const glm::dvec3* field) { return triple_text(*field); },
                                [](const std::vector<CameraKey>* field) { return camera_keys_text(*field); },
                                [](const std::string* field) { return quoted(*field); },
@@ -112,7 +119,8 @@ std::string allowed_text(const Key& key) {
         Overload{[](const bool*) { return std::string("true or false"); },
                  [&](const int*) { return fmt::format("integers {:.0f} to {:.0f}", key.range.min, key.range.max); },
                  [](const std::uint64_t*) { return fmt::format("integers 0 to {}", kLargestSeed); },
-                 [&](const double*) { return range_text(key); }, [&](const glm::dvec3*) { return vector_text(key); },
+                 [&](const double*) { return range_text(key); }, [&](const Rate*) { return range_text(key); },
+                 [&](const glm::dvec3*) { return vector_text(key); },
                  [](const std::string*) { return std::string("text in quotes"); },
                  [](const std::vector<CameraKey>*) {
                      return fmt::format(
@@ -135,6 +143,7 @@ std::optional<std::string> number_problem(const Key& key, double value) {
 
 std::optional<std::string> field_problem(const Key& key) {
     if (const auto* number = std::get_if<double*>(&key.field)) return number_problem(key, **number);
+    if (const auto* rate = std::get_if<Rate*>(&key.field)) return number_problem(key, **rate);
     if (const auto* integer = std::get_if<int*>(&key.field)) return number_problem(key, **integer);
     if (const auto* seed = std::get_if<std::uint64_t*>(&key.field)) {
         if (**seed > kLargestSeed) return "out of range";

@@ -25,6 +25,10 @@ Key number(std::string name, double& field, Range range, std::string_view unit, 
     return {.section = {}, .name = std::move(name), .field = &field, .range = range, .unit = unit, .meaning = meaning};
 }
 
+Key rate(std::string name, Rate& field, Range range, std::string_view unit, std::string_view meaning) {
+    return {.section = {}, .name = std::move(name), .field = &field, .range = range, .unit = unit, .meaning = meaning};
+}
+
 Key count(std::string name, int& field, Range range, std::string_view unit, std::string_view meaning) {
     return {.section = {}, .name = std::move(name), .field = &field, .range = range, .unit = unit, .meaning = meaning};
 }
@@ -111,7 +115,7 @@ Section sampling_section(Sampling& sampling, bool surface) {
 Section shutter_section(Shutter& shutter) {
     // Frame times stay finite because fps is bounded below and frame above.
     return section("shutter", "frame k begins at k / fps seconds", true,
-                   {number("fps", shutter.fps, {1e-3, 1e6}, "frames/s", "frame rate"),
+                   {rate("fps", shutter.fps, {1e-3, 1e6}, "frames/s", "frame rate; a fraction as text, \"24000/1001\""),
                     number("open_s", shutter.open_s, {0.0, 1e6}, "s", "time the shutter is open; 0: an instant"),
                     count("frame", shutter.frame, {0, 1e9}, "", "number of the frame, from 0")});
 }

@@ -24,8 +24,8 @@ struct Choice {
 };
 
 // The field of a scene that a key stands for.
-using Field =
-    std::variant<bool*, int*, std::uint64_t*, double*, glm::dvec3*, std::string*, Choice, std::vector<CameraKey>*>;
+using Field = std::variant<bool*, int*, std::uint64_t*, double*, Rate*, glm::dvec3*, std::string*, Choice,
+                           std::vector<CameraKey>*>;
 
 // Closed, finite. Of a vector: of each component.
 struct Range {
@@ -44,7 +44,7 @@ struct Key {
     std::string section;  // empty at the top of the file
     std::string name;
     Field field;
-    Range range;  // int, double and vector fields only
+    Range range;  // int, double, rate and vector fields only
     std::string_view unit;
     std::string_view meaning;
     bool is_direction = false;  // a vector no shorter than kShortestDirection

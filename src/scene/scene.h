@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "src/scene/rate.h"
+
 namespace strata::scene {
 
 enum class ImageKind { surface, zoneplate, checker, wheel, edge, ramp, constant };
@@ -31,9 +33,12 @@ struct Sampling {
 };
 
 struct Shutter {
-    double fps = 25.0;
+    Rate fps = 25.0;
     double open_s = 0.0;  // 0: an instant, no time samples
     int frame = 0;
+
+    // When the frame begins.
+    double time_s() const { return fps.seconds(frame); }
 };
 
 // Where the camera is at one time; what is left out is the camera's own.

@@ -108,6 +108,23 @@ struct Assign {
 
     MaybeFault operator()(double* field) const { return assign_number(*field, node); }
 
+    MaybeFault operator()(Rate* field) const {
+        if (const auto* text = node.as_string(); text && text->get().find('/') != std::string::npos) {
+            const auto fraction = parse_fraction(text->get());
+            if (!fraction) {
+                const std::string problem = fmt::format("not a fraction of whole numbers up to {}", kMostOfFraction);
+                return bad_value(key, problem, node);
+            }
+            if (const auto problem = number_problem(key, *fraction)) return bad_value(key, *problem, node);
+            *field = *fraction;
+            return std::nullopt;
+        }
+        double number = 0;
+        if (auto fault = assign_number(number, node)) return fault;
+        *field = number;
+        return std::nullopt;
+    }
+
     MaybeFault operator()(glm::dvec3* field) const {
         const auto* array = node.as_array();
         if (!array) return wrong_type(key, node);
@@ -280,7 +297,8 @@ Scene load_scene(const std::string& path) { return read_scene(file_text(path), p
 void assign_value(const Key& key, std::string_view typed) {
     constexpr std::string_view kName = "value";
     auto parsed = parse(fmt::format("{} = {}", kName, toml_of_typed(key, typed)));
-    if (std::holds_alternative<Fault>(parsed) && is_bare_word(typed)) {
+    const bool is_fraction = std::holds_alternative<Rate*>(key.field) && parse_fraction(typed);
+    if (std::holds_alternative<Fault>(parsed) && (is_fraction || is_bare_word(typed))) {
         parsed = parse(fmt::format("{} = {}", kName, quoted(typed)));
     }
     const auto* table = std::get_if<toml::table>(&parsed);

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "src/render/processors.h"
 #include "src/render/task_seam.h"
 
 using strata::render::TaskSeam;
@@ -48,7 +49,7 @@ TEST_CASE("more threads than the machine has work at the same time") {
         while (arrived.load() < threads && std::chrono::steady_clock::now() < end) std::this_thread::yield();
     });
     CHECK(arrived.load() == threads);
-    CHECK(TaskSeam(0).threads() == static_cast<int>(std::thread::hardware_concurrency()));
+    CHECK(TaskSeam(0).threads() == strata::render::available_processors());
 }
 
 TEST_CASE("an exception in one call reaches the caller, and the seam is usable afterwards") {

@@ -59,6 +59,10 @@ inline void randomise(const Key& key, Random& random) {
     if (auto* count = std::get_if<int*>(&key.field)) **count = static_cast<int>(random_number(key.range, random));
     if (auto* seed = std::get_if<std::uint64_t*>(&key.field)) **seed = random() % 4 == 0 ? kLargestSeed : random() >> 1;
     if (auto* number = std::get_if<double*>(&key.field)) **number = random_number(key.range, random);
+    if (auto* rate = std::get_if<Rate*>(&key.field)) {
+        **rate = random() % 2 == 0 ? Rate(random_number(key.range, random))
+                                   : Rate::fraction(1 + static_cast<long long>(random() % 100'000), 1001);
+    }
     if (auto* text = std::get_if<std::string*>(&key.field)) **text = random_text(random);
     if (auto* choice = std::get_if<Choice>(&key.field)) choice->set(random() % choice->names.size());
     if (auto* vector = std::get_if<glm::dvec3*>(&key.field)) {

@@ -84,7 +84,7 @@ std::string as_value(const Key& key, double number) {
 
 bool has_range(const Key& key) {
     return std::holds_alternative<int*>(key.field) || std::holds_alternative<double*>(key.field) ||
-           std::holds_alternative<glm::dvec3*>(key.field);
+           std::holds_alternative<Rate*>(key.field) || std::holds_alternative<glm::dvec3*>(key.field);
 }
 
 }  // namespace
@@ -259,6 +259,7 @@ TEST_CASE("validate refuses by name whatever field of a scene was put out of ran
         CAPTURE(key.full_name());
         if (auto* count = std::get_if<int*>(&key.field)) **count = -1;
         if (auto* number = std::get_if<double*>(&key.field)) **number = std::nan("");
+        if (auto* rate = std::get_if<Rate*>(&key.field)) **rate = std::nan("");
         if (auto* vector = std::get_if<glm::dvec3*>(&key.field)) (**vector).z = -2e12;
         if (auto* seed = std::get_if<std::uint64_t*>(&key.field)) **seed = kLargestSeed + 1;
         if (!has_range(key) && !std::holds_alternative<std::uint64_t*>(key.field)) continue;

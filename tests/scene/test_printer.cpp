@@ -26,6 +26,9 @@ std::vector<std::string> bits_of(Scene scene) {
             if (auto* count = std::get_if<int*>(&key.field)) text = std::to_string(**count);
             if (auto* seed = std::get_if<std::uint64_t*>(&key.field)) text = std::to_string(**seed);
             if (auto* real = std::get_if<double*>(&key.field)) text = number(**real);
+            if (auto* rate = std::get_if<Rate*>(&key.field)) {
+                text = number((*rate)->numerator()) + number((*rate)->denominator());
+            }
             if (auto* string = std::get_if<std::string*>(&key.field)) text = **string;
             if (auto* choice = std::get_if<Choice>(&key.field)) text = std::to_string(choice->get());
             if (auto* v = std::get_if<glm::dvec3*>(&key.field))

@@ -37,7 +37,11 @@ refuses() { # sentence status pattern arguments...
     expect_match "$sentence" "$status: $output" "$expected: $pattern"
 }
 
-# Until the program catches SIGINT: what a script starts in the background ignores it before, for good.
+# Before a program that is started in the background: there a script's programs ignore SIGINT for good.
+# shellcheck disable=SC2034 # used by the scripts that source this
+interruptible=(env --default-signal=INT --default-signal=QUIT)
+
+# Until the program catches SIGINT.
 await_handler() { # pid
     local i
     for ((i = 0; i < 3000; ++i)); do

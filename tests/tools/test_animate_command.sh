@@ -151,8 +151,62 @@ check_films() {
     expect 'and the frames are kept for another try' "$(find w.gif.frames -name '*.png' | wc -l)" 5
 }
 
+duration() { # film: what its container says, in seconds
+    ffprobe -v error -show_entries format=duration -of csv=p=0 "$1"
+}
+
+# The red, green and blue of a film's pixel in its first frame.
+pixel() { # film x y
+    ffmpeg -v error -i "$1" -frames:v 1 -vf "format=rgb24,crop=1:1:$2:$3" -f rawvideo - | od -An -tu1
+}
+
+check_film_times() {
+    [[ $has_ffmpeg ]] || return
+    run animate wheel --size 16x16 -N 1 --frames 0-29 --fps 60 --columns scene -o w.gif -o w.mp4 -o w.webm
+    expect_match 'a GIF leaves out frames that come too fast, and says so' "$status: $output" \
+        '0: *w.gif (15 of 30 frames, 0.5 s: a GIF shows up to 50 a second)*w.mp4 (30 frames, 0.5 s)*'
+    local film
+    for film in w.gif w.mp4 w.webm; do
+        expect_match "$film plays half a second" "$(duration "$film")" '0.50*'
+    done
+    expect 'no delay of the GIF is below 2/100 s' \
+        "$(ffprobe -v error -show_entries packet=duration_time -of csv=p=0 w.gif | tr -d ',' | awk '$1 < 0.0199' | wc -l)" 0
+
+    run animate wheel --size 16x16 -N 1 --frames 0-23 --fps 24000/1001 --columns scene -o r.mp4 -o r.gif -o r.webm
+    expect_match 'a fraction is a rate' "$status: $output" '0: *r.mp4 (24 frames, 1.001 s)*'
+    expect 'which the film has exactly' \
+        "$(ffprobe -v error -show_entries stream=r_frame_rate -of csv=p=0 r.mp4)" 24000/1001
+    for film in r.mp4 r.webm r.gif; do expect_match "$film plays 1.001 s" "$(duration "$film")" '1.00*'; done
+
+    run animate wheel --size 16x16 -N 1 --frames 0-20x2 --columns scene -o s.mp4 -o 's.##.png'
+    expect_match 'every second frame' "$status: $output" '0: frames   11 rendered*s.mp4 (11 frames, 0.88 s)*'
+    expect 'is rendered alone' "$(echo s.*.png)" 's.00.png s.02.png s.04.png s.06.png s.08.png s.10.png s.12.png s.14.png s.16.png s.18.png s.20.png'
+    expect_match 'and plays as fast as all would' "$(duration s.mp4)" '0.88*'
+    run animate wheel --size 16x16 -N 1 --frames 7-8,0,2 --columns scene -o 'l.#.png'
+    expect 'a list of frames' "$status $(echo l.*)" '0 l.0.png l.2.png l.7.png l.8.png'
+    refuses 'a film of unevenly spread frames is refused' 2 '*would not play in time*' \
+        animate wheel --frames 7-8,0,2 --columns scene -o l.mp4
+    refuses 'a GIF too slow for its file is refused' 2 '*allowed in a GIF*' animate wheel --frames 0-1 --fps 0.001 -o l.gif
+}
+
+# A grey frame: a border of another colour would show.
+check_odd_sides() {
+    [[ $has_ffmpeg ]] || return
+    local film
+    run animate constant --size 31x17 -N 1 --frames 0-1 -o c.mp4 -o c.webm
+    for film in c.mp4 c.webm; do
+        expect_match "$film has even sides" \
+            "$status $(ffprobe -v error -show_entries stream=width,height -of csv=p=0 "$film")" '0 32,18'
+        local size
+        size=$(ffprobe -v error -show_entries stream=width,height -of csv=p=0 "$film")
+        expect_match "a pixel of $film can be read" "$(pixel "$film" 2 2)" '*[0-9]*'
+        expect "the edge of $film repeats, to the corner" \
+            "$(pixel "$film" $((${size%,*} - 1)) $((${size#*,} - 1)))" "$(pixel "$film" $((${size%,*} - 2)) $((${size#*,} - 2)))"
+    done
+}
+
 check_signals() {
-    "$strata" animate hyperterrain --size 160x90 -N 8 --frames 0-999 --quiet -o h.png &
+    "${interruptible[@]}" "$strata" animate hyperterrain --size 160x90 -N 8 --frames 0-999 --quiet -o h.png &
     local pid=$! i
     for ((i = 0; i < 1500; ++i)); do
         [[ -e h.0001.png ]] && break
@@ -168,4 +222,5 @@ check_signals() {
     expect 'whole frames are left, and nothing else' "$broken $(find . -mindepth 1 | grep -vc '^./h\.[0-9]*\.png$\|^./t.exr$')" '0 0'
 }
 
-run_groups check_frames check_other_frames check_damaged_frames check_refusals check_columns check_films check_signals
+run_groups check_frames check_other_frames check_damaged_frames check_refusals check_columns check_films check_film_times \
+    check_odd_sides check_signals

@@ -72,7 +72,7 @@ check_peers_and_memory() {
 }
 
 check_signal() {
-    "$strata" bench --only scenes --quiet -o stopped 2>said &
+    "${interruptible[@]}" "$strata" bench --only scenes --quiet -o stopped 2>said &
     local pid=$!
     sleep 2
     kill -INT "$pid"

@@ -92,7 +92,7 @@ check_budget_and_signals() {
     run converge zoneplate --size 128x128 --budget 15s --quiet -o budget
     expect 'a run with a budget ends in time' "$status: $output $((SECONDS - start <= 17))" '0:  1'
     expect_match 'it says what it left out' "$(cat budget/summary.md)" '*did not suffice for N =*'
-    "$strata" converge edge --seeds 1000 --N 1,2 --m 4 --quiet -o stopped &
+    "${interruptible[@]}" "$strata" converge edge --seeds 1000 --N 1,2 --m 4 --quiet -o stopped &
     local pid=$!
     await_handler "$pid"
     sleep 3

@@ -77,7 +77,7 @@ $(cd f && echo *.json)" '7 6 figure-4.json'
 }
 
 check_signals() {
-    "$strata" figures --only 5 --size large -o f --quiet &
+    "${interruptible[@]}" "$strata" figures --only 5 --size large -o f --quiet &
     local pid=$!
     await_handler "$pid"
     kill -INT "$pid"

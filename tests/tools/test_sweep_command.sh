@@ -54,7 +54,7 @@ reference_m04.exr reference_m04_a.exr reference_m04_b.exr sweep.csv sweep.json s
 }
 
 check_interruption() {
-    "$strata" sweep terrain --size 160x90 --simd scalar --N 1,40 --reference none --quiet -o s &
+    "${interruptible[@]}" "$strata" sweep terrain --size 160x90 --simd scalar --N 1,40 --reference none --quiet -o s &
     local child=$! i
     for ((i = 0; i < 200; i++)); do
         [[ -e s/N01.exr ]] && break

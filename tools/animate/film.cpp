@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "src/image/format.h"
-#include "src/scene/key_text.h"
+#include "src/image/scratch_files.h"
 #include "tools/process.h"
+#include "tools/temporary_folder.h"
 
 namespace strata::tools {
 
@@ -19,11 +20,17 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// 4:2:0 video has even sides. Frames are full-range sRGB; players expect BT.709, limited range.
+// Frames are full-range sRGB; players expect BT.709, limited range.
 constexpr const char* kVideoFilter =
-    "pad=ceil(iw/2)*2:ceil(ih/"
-    "2)*2:color=white,scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_"
-    "int,format=yuv420p";
+    "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,format=yuv420p";
+
+// 4:2:0 video has even sides: the edge of an odd one is there twice, which is not seen.
+std::string even_sides(int width, int height) {
+    const int right = width % 2, bottom = height % 2;
+    if (right == 0 && bottom == 0) return {};
+    return fmt::format("format=gbrp,pad={}:{},fillborders=right={}:bottom={}:mode=smear,", width + right,
+                       height + bottom, right, bottom);
+}
 
 // One palette for all frames, so that still parts do not flicker.
 constexpr const char* kGifFilter =
@@ -33,16 +40,20 @@ constexpr const char* kGifFilter =
 const Words kColourTags{"-colorspace",  "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
                         "-color_range", "tv",    "-threads",         "4"};
 
-Words codec(const fs::path& film) {
+Words codec(const fs::path& film, const FilmTiming& timing, int width, int height) {
     const std::string extension = image::extension_of(film);
     Words words;
-    if (extension == ".gif") return {"-filter_complex", kGifFilter, "-loop", "0", "-f", "gif"};
+    if (extension == ".gif") {
+        const std::string last = fmt::format("{}", timing.last_delay_cs.value_or(0));
+        return {"-filter_complex", kGifFilter, "-loop", "0", "-final_delay", last, "-f", "gif"};
+    }
+    const std::string filter = even_sides(width, height) + kVideoFilter;
     if (extension == ".webm") {
-        words = {"-vf", kVideoFilter, "-c:v", "libvpx-vp9", "-crf", "24", "-b:v",
-                 "0",   "-deadline",  "good", "-cpu-used",  "2",    "-f", "webm"};
+        words = {"-vf", filter,      "-c:v", "libvpx-vp9", "-crf", "24", "-b:v",
+                 "0",   "-deadline", "good", "-cpu-used",  "2",    "-f", "webm"};
     } else {
-        words = {"-vf",  kVideoFilter, "-c:v",      "libx264",    "-preset", "slow",
-                 "-crf", "18",         "-movflags", "+faststart", "-f",      "mp4"};
+        words = {"-vf",  filter, "-c:v",      "libx264",    "-preset", "slow",
+                 "-crf", "18",   "-movflags", "+faststart", "-f",      "mp4"};
     }
     words.insert(words.begin(), kColourTags.begin(), kColourTags.end());
     return words;
@@ -52,10 +63,13 @@ Words codec(const fs::path& film) {
 class TemporaryFilm {
   public:
     explicit TemporaryFilm(const fs::path& film)
-        : path_(film.parent_path() / fmt::format(".strata-film-{}{}", ::getpid(), film.extension().string())) {}
+        : path_(film.parent_path() / fmt::format(".strata-film-{}{}", ::getpid(), film.extension().string())) {
+        image::remember_scratch_file(path_.c_str());
+    }
     ~TemporaryFilm() {
         std::error_code ignored;
         fs::remove(path_, ignored);
+        image::forget_scratch_file(path_.c_str());
     }
     TemporaryFilm(const TemporaryFilm&) = delete;
     TemporaryFilm& operator=(const TemporaryFilm&) = delete;
@@ -66,6 +80,28 @@ class TemporaryFilm {
     fs::path path_;
 };
 
+// ffmpeg takes frames that are numbered without gaps: links to those that the film has, in a folder of their own.
+class FramesInARow {
+  public:
+    FramesInARow(const FramePattern& frames, const std::vector<int>& numbers) {
+        std::error_code error;
+        for (std::size_t i = 0; i < numbers.size() && !error; ++i) {
+            fs::create_symlink(fs::absolute(frames.path(numbers[i])), folder_.path() / fmt::format("{}.png", i), error);
+        }
+        if (!error) return;
+        throw ProcessError(fmt::format("no links in \"{}\": {}", folder_.path().string(), error.message()));
+    }
+
+    std::string ffmpeg_pattern() const {
+        std::string pattern = "file:";
+        for (const char c : folder_.path().string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
+        return pattern + "/%d.png";
+    }
+
+  private:
+    TemporaryFolder folder_{"film"};
+};
+
 }  // namespace
 
 bool is_film(const fs::path& path) {
@@ -73,9 +109,10 @@ bool is_film(const fs::path& path) {
     return extension == ".mp4" || extension == ".webm" || extension == ".gif";
 }
 
-void encode_film(const fs::path& film, const FramePattern& frames, const FrameRange& range, double fps) {
+void encode_film(const fs::path& film, const FramePattern& frames, const FilmTiming& timing, int width, int height) {
     const fs::path ffmpeg = find_program("ffmpeg", "ffmpeg", "video");
     const TemporaryFilm temporary(film);
+    const FramesInARow in_a_row(frames, timing.frames);
     Words words{"-nostdin",
                 "-hide_banner",
                 "-loglevel",
@@ -84,22 +121,22 @@ void encode_film(const fs::path& film, const FramePattern& frames, const FrameRa
                 "-fflags",
                 "+bitexact",
                 "-framerate",
-                scene::number_text(fps),
+                timing.rate.text(),
                 "-start_number",
-                fmt::format("{}", range.first),
+                "0",
                 "-pattern_type",
                 "sequence",
                 "-i",
-                frames.ffmpeg_pattern(),
+                in_a_row.ffmpeg_pattern(),
                 "-frames:v",
-                fmt::format("{}", range.count()),
+                fmt::format("{}", timing.frames.size()),
                 "-map_metadata",
                 "-1",
                 "-fflags",
                 "+bitexact",
                 "-flags:v",
                 "+bitexact"};
-    const Words chosen = codec(film);
+    const Words chosen = codec(film, timing, width, height);
     words.insert(words.end(), chosen.begin(), chosen.end());
     words.push_back("file:" + temporary.path().string());
     run_program(ffmpeg, words);

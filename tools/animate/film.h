@@ -4,15 +4,16 @@
 #include <filesystem>
 
 #include "tools/animate/frames.h"
-#include "tools/animate/range.h"
+#include "tools/animate/timing.h"
 
 namespace strata::tools {
 
 // By extension: .mp4 (H.264), .webm (VP9) or .gif (256 colours of its own, plays for ever).
 bool is_film(const std::filesystem::path& path);
 
-// Encodes PNG frames. Colours are tagged as BT.709, sides padded to even numbers for video; equal frames make equal
-// files. The film appears whole or not at all. Throws ProcessError.
-void encode_film(const std::filesystem::path& film, const FramePattern& frames, const FrameRange& range, double fps);
+// Encodes PNG frames of width x height. Colours are tagged as BT.709, odd sides of video repeat their last row or
+// column; equal frames make equal files. The film appears whole or not at all. Throws ProcessError.
+void encode_film(const std::filesystem::path& film, const FramePattern& frames, const FilmTiming& timing, int width,
+                 int height);
 
 }  // namespace strata::tools

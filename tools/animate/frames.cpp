@@ -10,16 +10,6 @@ namespace strata::tools {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-std::string with_doubled_percent(const std::string& text) {
-    std::string result;
-    for (const char c : text) result += c == '%' ? std::string("%%") : std::string(1, c);
-    return result;
-}
-
-}  // namespace
-
 // Of several runs of '#' the last one is the number: the others are part of a name such as "shot #2".
 FramePattern::FramePattern(const fs::path& typed) : folder_(typed.parent_path()) {
     const std::string name = typed.filename().string();
@@ -38,13 +28,6 @@ FramePattern::FramePattern(const fs::path& typed) : folder_(typed.parent_path())
 
 fs::path FramePattern::path(int frame) const {
     return folder_ / fmt::format("{}{:0{}}{}", before_, frame, digits_, after_);
-}
-
-std::string FramePattern::ffmpeg_pattern() const {
-    // A plain name could begin like a protocol or an option.
-    const fs::path folder = folder_.empty() ? fs::path(".") : folder_;
-    return fmt::format("file:{}/{}%0{}d{}", with_doubled_percent(folder.string()), with_doubled_percent(before_),
-                       digits_, with_doubled_percent(after_));
 }
 
 std::string FramePattern::text() const {

@@ -14,9 +14,6 @@ class FramePattern {
 
     std::filesystem::path path(int frame) const;
 
-    // As ffmpeg's image2 takes it: "out/name.%04d.png", any '%' of the names doubled.
-    std::string ffmpeg_pattern() const;
-
     // As shown to users: "out/name.####.png".
     std::string text() const;
 

@@ -110,10 +110,13 @@ void choose_film_source(AnimateJob& job) {
 }
 
 void check_paths(const AnimateJob& job) {
-    for (const fs::path& film : job.films) image::check_replaceable(film);
+    for (const fs::path& film : job.films) {
+        check_timing(film, job.range, job.scene.shutter.fps);
+        image::check_replaceable(film);
+    }
     for (const FrameOutput& output : job.frames) {
         if (output.is_scratch) continue;
-        const fs::path first = output.pattern.path(job.range.first);
+        const fs::path first = output.pattern.path(job.range.first());
         image::check_replaceable(first);
     }
     std::error_code error;
@@ -126,7 +129,7 @@ void check_paths(const AnimateJob& job) {
 
 // Every frame has its own time: what is within reach of one may not be of another.
 void check_scenes(const AnimateJob& job) {
-    for (int frame = job.range.first; frame <= job.range.last; ++frame) {
+    for (const int frame : job.range) {
         for (const scene::Scene& scene : frame_scenes(job, frame)) {
             scene::validate(scene, fmt::format("frame {}", frame));
         }
@@ -159,7 +162,7 @@ AnimateJob prepare_animation(const AnimateRequest& request) {
     job.format = request.format.empty() ? "half" : request.format;
     job.write = {.exposure = job.scene.film.exposure, .exr_format = parse_exr_format(job.format)};
     job.range = request.frames.empty() ? default_frames(job.scene) : parse_frames(request.frames);
-    job.scene.shutter.frame = job.range.first;
+    job.scene.shutter.frame = job.range.first();
     job.columns_text = choose_columns(request, loaded);
     if (!job.columns_text.empty()) job.columns = parse_columns("--columns", job.columns_text);
     check_columns(job);

@@ -32,7 +32,7 @@ struct AnimateJob {
     scene::Scene scene;
     std::vector<ColumnSettings> columns;  // side by side, with labels; empty: the scene alone
     std::string columns_text;             // all of them as typed
-    FrameRange range;
+    FrameList range;
     std::vector<FrameOutput> frames;
     std::vector<std::filesystem::path> films;
     std::size_t film_source = 0;    // which of `frames` films are made of

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "src/scene/key_text.h"
 #include "tools/errors.h"
@@ -27,25 +28,69 @@ std::optional<int> frames_to_repeat(double periods_a_frame) {
     return std::nullopt;
 }
 
-}  // namespace
+// "12", "0-249" or "0-100x2".
+struct Part {
+    int first = 0, last = 0, step = 1;
+};
 
-FrameRange parse_frames(const std::string& text) {
+Part parse_part(const std::string& all, const std::string& text) {
+    const char* allowed =
+        "allowed: FRAME, FIRST-LAST or FIRST-LASTxSTEP, such as 0-249 or 0-100x2, from 0; several with ','";
     const auto dash = text.find('-', 1);
     const bool is_range = dash != std::string::npos;
-    const char* allowed = "allowed: FRAME or FIRST-LAST, such as 0-249, from 0";
-    FrameRange range;
+    const auto times = is_range ? text.find('x', dash) : std::string::npos;
+    Part part;
     try {
-        range.first = parse_integer("--frames", text.substr(0, dash), 0, kLastFrame);
-        range.last = is_range ? parse_integer("--frames", text.substr(dash + 1), 0, kLastFrame) : range.first;
+        part.first = parse_integer("--frames", text.substr(0, dash), 0, kLastFrame);
+        part.last =
+            is_range ? parse_integer("--frames", text.substr(dash + 1, times - dash - 1), 0, kLastFrame) : part.first;
+        if (times != std::string::npos) part.step = parse_integer("--frames", text.substr(times + 1), 1, kLastFrame);
     } catch (const UsageError&) {
-        throw UsageError(fmt::format("--frames {}: {}", scene::excerpt(text), allowed));
+        throw UsageError(fmt::format("--frames {}: {}", scene::excerpt(all), allowed));
     }
-    if (range.last < range.first)
-        throw UsageError(fmt::format("--frames {}: ends before it begins, {}", text, allowed));
-    if (range.count() > kMostFrames) {
-        throw UsageError(fmt::format("--frames {}: {} frames, allowed: up to {}", text, range.count(), kMostFrames));
+    if (part.last < part.first) {
+        throw UsageError(fmt::format("--frames {}: ends before it begins, {}", scene::excerpt(all), allowed));
     }
-    return range;
+    return part;
+}
+
+}  // namespace
+
+FrameList::FrameList(std::vector<int> numbers) : numbers_(std::move(numbers)) {
+    std::ranges::sort(numbers_);
+    numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
+}
+
+FrameList FrameList::range(int first, int last, int step) {
+    std::vector<int> numbers;
+    for (long long frame = first; frame <= last; frame += step) numbers.push_back(static_cast<int>(frame));
+    return FrameList(std::move(numbers));
+}
+
+std::optional<int> FrameList::step() const {
+    if (count() == 1) return 1;
+    const int step = numbers_[1] - numbers_[0];
+    for (std::size_t i = 2; i < numbers_.size(); ++i) {
+        if (numbers_[i] - numbers_[i - 1] != step) return std::nullopt;
+    }
+    return step;
+}
+
+FrameList parse_frames(const std::string& text) {
+    std::vector<int> numbers;
+    std::size_t start = 0;
+    while (start <= text.size()) {
+        const std::size_t end = std::min(text.find(',', start), text.size());
+        const Part part = parse_part(text, text.substr(start, end - start));
+        const std::size_t count = numbers.size() + static_cast<std::size_t>((part.last - part.first) / part.step) + 1;
+        if (count > kMostFrames) {
+            throw UsageError(
+                fmt::format("--frames {}: {} frames, allowed: up to {}", scene::excerpt(text), count, kMostFrames));
+        }
+        for (int i = 0; i <= (part.last - part.first) / part.step; ++i) numbers.push_back(part.first + i * part.step);
+        start = end + 1;
+    }
+    return FrameList(std::move(numbers));
 }
 
 std::optional<int> loop_frames(const scene::Scene& scene) {
@@ -58,11 +103,11 @@ std::optional<int> loop_frames(const scene::Scene& scene) {
     return frames_to_repeat(scene.surface.spin_deg_per_s / 360.0 / fps);
 }
 
-FrameRange default_frames(const scene::Scene& scene) {
-    if (const auto frames = loop_frames(scene)) return {0, *frames - 1};
+FrameList default_frames(const scene::Scene& scene) {
+    if (const auto frames = loop_frames(scene)) return FrameList::range(0, *frames - 1);
     if (scene.image == scene::ImageKind::surface && scene.camera.keys.size() > 1) {
         const double last = std::ceil(scene.camera.keys.back().time_s * scene.shutter.fps - 1e-9);
-        if (last >= 1.0 && last < kMostFrames) return {0, static_cast<int>(last)};
+        if (last >= 1.0 && last < kMostFrames) return FrameList::range(0, static_cast<int>(last));
     }
     throw UsageError(
         "--frames is needed: nothing in this scene tells where it ends (camera.keys do, and a surface.spin_deg_per_s "

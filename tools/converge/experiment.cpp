@@ -1,7 +1,6 @@
 #include "tools/converge/experiment.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,6 +10,7 @@
 
 #include "src/image/compare.h"
 #include "src/render/make_image.h"
+#include "src/render/processors.h"
 #include "src/render/render.h"
 #include "tools/converge/budget.h"
 #include "tools/converge/reference.h"
@@ -157,7 +157,7 @@ double Run::reference_cost_s(int largest_N) const {
         if (!has_exact_reference(all_.scene, m))
             sum += 2 * kPassesOfAHalf * std::pow(reference_N(largest_N), 2) * slowest;
     }
-    const double cores = static_cast<double>(std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN)));
+    const double cores = render::available_processors();
     return reference_threads_ == 0 ? sum / cores : sum;
 }
 

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "src/image/encode.h"
 #include "src/render/estimator.h"
 #include "src/render/make_image.h"
+#include "src/render/processors.h"
 #include "src/render/render.h"
 #include "src/scene/needs.h"
 #include "tools/explain/pilot.h"
@@ -115,8 +115,7 @@ Prediction predict(const scene::Scene& scene, const render::Window& window, cons
     const render::EstimatorSettings sampling = render::estimator_settings(scene);
     const render::Estimator estimator(sampling);
     Prediction prediction;
-    prediction.threads =
-        settings.threads > 0 ? settings.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    prediction.threads = settings.threads > 0 ? settings.threads : render::available_processors();
     Costs& costs = prediction.costs;
     costs.rays = count_rays(scene, window);
     leave_out(scene, costs);

@@ -98,7 +98,7 @@ Plan plan(Size size) {
 
 // Just outside of the rim, at the angle of a spoke's image in this frame: the spoke of mid-shutter.
 void mark_spoke(image::Canvas& canvas, const scene::Scene& scene) {
-    const double time_s = scene.shutter.frame / scene.shutter.fps + 0.5 * scene.shutter.open_s;
+    const double time_s = scene.shutter.time_s() + 0.5 * scene.shutter.open_s;
     const double pitches = std::fmod(scene.wheel.turns_per_s * scene.wheel.spokes * time_s, 1.0);
     // Of all spokes, images of each other, the one that the eye follows from frame 0: the nearest.
     const double seen_Hz =

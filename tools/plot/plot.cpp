@@ -109,8 +109,8 @@ void write_plot(const Plot& plot, const fs::path& path) {
     const PlotFormat format = format_of(path);
     check_plot(plot);
     const fs::path program = gnuplot();
-    const TemporaryFolder folder("plot");
-    const fs::path script = folder.path() / "plot.gp", drawn = folder.path() / "plot";
+    TemporaryFolder folder("plot");
+    const fs::path script = folder.file("plot.gp"), drawn = folder.file("plot");
     std::ofstream(script, std::ios::binary) << plot_script(plot, format, drawn.string());
     // -d: no start-up files of the user or the system.
     run_program(program, {"-d", script.string()});
