@@ -13,10 +13,6 @@ namespace strata::golden {
 
 namespace {
 
-std::filesystem::path pins_path(const Folders& folders, const std::string& target) {
-    return folders.pins / (target + ".toml");
-}
-
 std::filesystem::path picture_path(const Folders& folders, const std::string& scene) {
     return folders.pins / "pictures" / (scene + ".txt");
 }
@@ -68,9 +64,9 @@ bool agrees(const std::string& target, const Folders& folders, const GoldenScene
 }
 
 // Pinned scenes that are none any more.
-int count_gone(const std::string& target, const Pins& pins) {
+int count_gone(const std::string& target, std::span<const GoldenScene> scenes, const Pins& pins) {
     std::set<std::string> names;
-    for (const GoldenScene& golden : golden_scenes()) names.insert(golden.name);
+    for (const GoldenScene& golden : scenes) names.insert(golden.name);
     int gone = 0;
     for (const auto& [name, record] : pins.scenes) {
         if (names.contains(name)) continue;
@@ -88,15 +84,18 @@ void remove_old_pictures(const Folders& folders, const Pins& pins) {
 
 }  // namespace
 
-Verdict check(const std::string& target, const Folders& folders) {
+std::filesystem::path pins_path(const Folders& folders, const std::string& target) {
+    return folders.pins / (target + ".toml");
+}
+
+Verdict check(const std::string& target, std::span<const GoldenScene> scenes, const Folders& folders) {
     std::filesystem::remove_all(folders.left / target);
     const Pins pins = load_pins(pins_path(folders, target));
-    int checked = 0, differ = count_gone(target, pins);
-    for (const GoldenScene& golden : golden_scenes()) {
+    int differ = count_gone(target, scenes, pins);
+    for (const GoldenScene& golden : scenes) {
         differ += !agrees(target, folders, golden, pins, measure(golden, kPinnedCut));
-        ++checked;
     }
-    fmt::print("{}: {} scenes, {} not as pinned\n", target, checked, differ);
+    fmt::print("{}: {} scenes, {} not as pinned\n", target, scenes.size(), differ);
     if (differ == 0) return Verdict::same;
     const std::string why = what_differs(pins.environment, this_environment());
     if (why.empty()) {
@@ -107,13 +106,13 @@ Verdict check(const std::string& target, const Folders& folders) {
     return Verdict::differs_elsewhere;
 }
 
-void pin(const std::string& target, const Folders& folders) {
+void pin(const std::string& target, std::span<const GoldenScene> scenes, const Folders& folders) {
     std::filesystem::remove_all(folders.left / target);
     Pins before;
     if (std::filesystem::exists(pins_path(folders, target))) before = load_pins(pins_path(folders, target));
     Pins now{this_environment(), {}};
-    int changed = count_gone(target, before);
-    for (const GoldenScene& golden : golden_scenes()) {
+    int changed = count_gone(target, scenes, before);
+    for (const GoldenScene& golden : scenes) {
         const Measurement got = measure(golden, kPinnedCut);
         changed += !agrees(target, folders, golden, before, got);
         now.scenes[golden.name] = got.record;
@@ -123,7 +122,7 @@ void pin(const std::string& target, const Folders& folders) {
     }
     replace_text(pins_path(folders, target), print_pins(now, target));
     if (target == kReferenceTarget) remove_old_pictures(folders, now);
-    fmt::print("{}: {} scenes pinned, {} of them or of those before changed\n", target, now.scenes.size(), changed);
+    fmt::print("{}: {} scenes pinned, {} new, changed or gone\n", target, now.scenes.size(), changed);
 }
 
 }  // namespace strata::golden

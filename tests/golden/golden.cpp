@@ -27,7 +27,7 @@ int check_target(const std::string& target, const golden::Folders& folders) {
         fmt::print("No verdict: this machine or program has no {}.\n", target);
         return kNoVerdict;
     }
-    switch (golden::check(target, folders)) {
+    switch (golden::check(target, golden::golden_scenes(), folders)) {
         case golden::Verdict::same:
             return 0;
         case golden::Verdict::differs:
@@ -43,7 +43,7 @@ int pin_targets(const golden::Folders& folders) {
     std::vector<std::string> left_alone;
     for (const std::string target : kTargets) {
         if (noise::pin_simd_target(target)) {
-            golden::pin(target, folders);
+            golden::pin(target, golden::golden_scenes(), folders);
         } else {
             left_alone.push_back(target);
         }

@@ -39,7 +39,7 @@ std::string digest_of_costs(const render::Film& film, glm::length_t which) {
 
 Record record_of(const render::RenderResult& result, const image::Picture& picture) {
     Record record;
-    record.digests.emplace_back("pixels", digest_text(std::span<const float>(picture.rgb)));
+    record.digests.emplace_back("pixels", pixels_digest(picture));
     if (!result.film.costs().empty()) {
         record.digests.emplace_back("steps_aov", digest_of_costs(result.film, 0));
         record.digests.emplace_back("evals_aov", digest_of_costs(result.film, 1));
@@ -54,8 +54,7 @@ Record record_of(const render::RenderResult& result, const image::Picture& pictu
                      {"total.executed_lanes", c.executed_lanes}};
     for (std::size_t i = 0; i < render::kPhases; ++i) {
         const render::PhaseCost& cost = c.phases[i];
-        std::string phase = render::name_of(static_cast<render::Phase>(i));
-        std::replace(phase.begin(), phase.end(), ' ', '_');
+        const std::string phase = phase_key(static_cast<render::Phase>(i));
         record.counts.insert(record.counts.end(), {{phase + ".evaluations", cost.noise_evaluations},
                                                    {phase + ".steps", cost.steps},
                                                    {phase + ".too_fine", cost.left_out.too_fine},
@@ -66,6 +65,14 @@ Record record_of(const render::RenderResult& result, const image::Picture& pictu
 }
 
 }  // namespace
+
+std::string phase_key(render::Phase phase) {
+    std::string key = render::name_of(phase);
+    std::replace(key.begin(), key.end(), ' ', '_');
+    return key;
+}
+
+std::string pixels_digest(const image::Picture& picture) { return digest_text(std::span<const float>(picture.rgb)); }
 
 Measurement measure(const GoldenScene& golden, const Cut& cut) {
     const scene::Scene scene = scene_of(golden);

@@ -119,7 +119,9 @@ std::vector<GoldenScene> extremes() {
         {.name = "terrain_finest_cells",
          .keys =
              kTerrain + Keys{"surface.frequency=1e9", "surface.octaves=8", "surface.lacunarity=3", "camera.far=60"}},
-        {.name = "hyperterrain_steep", .keys = kHyperterrain + Keys{"surface.amplitude=1e4", "surface.frequency=3"}},
+        {.name = "hyperterrain_steep",
+         .keys = kHyperterrain + Keys{"surface.amplitude=40", "surface.frequency=0.3", "camera.position=[0.3,60,0.1]",
+                                      "camera.look_at=[0.3,0,40]", "camera.far=1e4"}},
         {.name = "isosurface_telescope",
          .keys = kIsosurface + Keys{"camera.position=[4e3,8e3,-2e4]", "camera.far=1e5", "camera.fov_deg=0.01"}},
     };
