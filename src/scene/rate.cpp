@@ -23,8 +23,9 @@ std::optional<long long> whole_number(std::string_view text) {
 
 Rate Rate::fraction(long long numerator, long long denominator) {
     const long long common = std::gcd(numerator, denominator);
-    Rate rate(static_cast<double>(numerator / common));
-    rate.denominator_ = static_cast<double>(denominator / common);
+    const long long reduced_numerator = numerator / common, reduced_denominator = denominator / common;
+    Rate rate(static_cast<double>(reduced_numerator));
+    rate.denominator_ = static_cast<double>(reduced_denominator);
     return rate;
 }
 
