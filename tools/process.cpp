@@ -78,13 +78,20 @@ bool ignores_interrupts() {
 std::array<std::atomic<pid_t>, 16> running{};
 static_assert(std::atomic<pid_t>::is_always_lock_free);
 
+// A signal can come while a program has been started and is not yet in the list: whoever enters it there looks whether
+// one came meanwhile.
+std::atomic<unsigned> signals_sent{0};
+std::atomic<int> latest_signal{0};
+
 class Running {
   public:
-    explicit Running(pid_t child) : child_(child) {
+    // `sent_before` is signals_sent as it was before the program was started.
+    Running(pid_t child, unsigned sent_before) : child_(child) {
         for (auto& place : running) {
             pid_t free = 0;
-            if (place.compare_exchange_strong(free, child)) return;
+            if (place.compare_exchange_strong(free, child)) break;
         }
+        if (signals_sent.load() != sent_before) ::kill(child, latest_signal.load());
     }
     ~Running() {
         for (auto& place : running) {
@@ -150,6 +157,8 @@ int wait_for(pid_t child, rusage& usage) {
 }  // namespace
 
 void end_programs(int signal) noexcept {
+    latest_signal.store(signal);
+    signals_sent.fetch_add(1);
     for (const auto& place : running) {
         if (const pid_t child = place.load(); child > 0) ::kill(child, signal);
     }
@@ -181,11 +190,12 @@ fs::path find_program(const std::string& name, const std::string& debian_package
 
 ProgramRun run_program(const fs::path& program, const std::vector<std::string>& arguments) {
     OutputPipe output(program);
+    const unsigned sent_before = signals_sent.load();
     const pid_t child = start(program, arguments, output);
     output.close_writing();
     std::string words;
     {
-        const Running reached_by_signals(child);
+        const Running reached_by_signals(child, sent_before);
         words = output.read_all();
         await_end(child);
     }
