@@ -78,8 +78,8 @@ void SurfaceImage::gradients(std::span<const trace::Hit> hits, std::span<const g
     for (std::size_t i = 0; i < x.size(); ++i) {
         if (hits[i].on_bound) continue;
         gradient[i] = glm::vec3(field_.gradient(x[i], noise_shift.empty() ? glm::dvec3(0.0) : noise_shift[i]));
-        counters.noise_evaluations += field_.octaves().size();
-        counters.executed_lanes += field_.octaves().size();
+        counters.noise_evaluations += field_.evaluations();
+        counters.executed_lanes += field_.evaluations();
     }
 }
 

@@ -112,7 +112,7 @@ void SurfaceImage::evaluate_chunk(const SampleBatch& samples, std::span<glm::vec
     normals(chunk.surface_hits, chunk.x, chunk.noise_shift, chunk.normal, traced);
     meter.book(Phase::normals, traced);
 
-    chunk.add_normals_costs(static_cast<std::uint32_t>(field_.octaves().size()));
+    chunk.add_normals_costs(static_cast<std::uint32_t>(field_.evaluations()));
     if (scene::needs_shadow_rays(scene_.sun)) {
         meter.book(Phase::shading);
         shadow(chunk, counters, meter);

@@ -49,6 +49,12 @@ std::string camera_keys_text(const std::vector<CameraKey>& entries) {
     return text + "]";
 }
 
+std::string names_text(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + quoted(name);
+    return "[" + text + "]";
+}
+
 // Control characters as TOML escapes them in strings.
 std::string without_controls(std::string_view text) {
     std::string result;
@@ -109,6 +115,7 @@ std::string value_text(const Key& key) {
                                [](const glm::dvec3* field) { return triple_text(*field); },
                                [](const std::vector<CameraKey>* field) { return camera_keys_text(*field); },
                                [](const std::string* field) { return quoted(*field); },
+                               [](const std::vector<std::string>* field) { return names_text(*field); },
                                [](const Choice& choice) { return quoted(choice.names[choice.get()]); },
                                [](const auto* integer) { return fmt::format("{}", *integer); }},
                       key.field);
@@ -122,6 +129,7 @@ std::string allowed_text(const Key& key) {
                  [&](const double*) { return range_text(key); }, [&](const Rate*) { return range_text(key); },
                  [&](const glm::dvec3*) { return vector_text(key); },
                  [](const std::string*) { return std::string("text in quotes"); },
+                 [](const std::vector<std::string>*) { return std::string("names in quotes, between [ and ]"); },
                  [](const std::vector<CameraKey>*) {
                      return fmt::format(
                          "up to {} tables of time_s (s, increasing by {:g} or more) and any of position, "

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/scene/enum_names.h"
+#include "src/scene/relief_keys.h"
 
 namespace strata::scene {
 
@@ -80,7 +81,7 @@ Section section(std::string name, std::string_view meaning, bool matters, std::v
         key.section = name;
         key.matters = key.matters && matters;
     }
-    return {std::move(name), meaning, std::move(keys)};
+    return {std::move(name), meaning, std::move(keys), false};
 }
 
 Section top_section(Scene& s) {
@@ -138,6 +139,7 @@ Section camera_section(Camera& camera, bool matters) {
 Section surface_section(Surface& surface, bool matters) {
     const bool planet = surface.kind == SurfaceKind::planet;
     const bool isosurface = surface.kind == SurfaceKind::isosurface;
+    const bool own_sum = surface.relief.empty();
     return section(
         "surface", "sum over octaves k of amplitude * gain^k * noise(frequency * lacunarity^k * x)", matters,
         {choice("kind", surface.kind, "y = 2-D sum, y = 3-D sum, |x| = radius + 3-D sum, 3-D sum = threshold"),
@@ -149,12 +151,12 @@ Section surface_section(Surface& surface, bool matters) {
          number("spin_deg_per_s", surface.spin_deg_per_s, kAngle, "degrees/s", "speed of the spin; 0: at rest"),
          vector("drift", surface.drift, kDrift, "surface units/s",
                 "how the noise moves through the surface, in its own directions: terrain flows, bodies morph"),
-         count("octaves", surface.octaves, {1, 32}, "", "terms of the sum"),
-         number("lacunarity", surface.lacunarity, {1.0, 10.0}, "", "frequency ratio of neighbouring octaves"),
-         number("gain", surface.gain, {0.0, 1.0}, "", "amplitude ratio of neighbouring octaves"),
-         number("amplitude", surface.amplitude, {0.0, 1e6}, "surface units", "amplitude of octave 0"),
-         number("frequency", surface.frequency, {1e-9, 1e9}, "lattice cells a surface unit", "frequency of octave 0"),
-         seed("seed", surface.seed, "chooses the noise"),
+         only_if(own_sum, count("octaves", surface.octaves, {1, 32}, "", "terms of the sum")),
+         only_if(own_sum, number("lacunarity", surface.lacunarity, {1.0, 10.0}, "", "frequency ratio of neighbouring octaves")),
+         only_if(own_sum, number("gain", surface.gain, {0.0, 1.0}, "", "amplitude ratio of neighbouring octaves")),
+         only_if(own_sum, number("amplitude", surface.amplitude, {0.0, 1e6}, "surface units", "amplitude of octave 0")),
+         only_if(own_sum, number("frequency", surface.frequency, {1e-9, 1e9}, "lattice cells a surface unit", "frequency of octave 0")),
+         only_if(own_sum, seed("seed", surface.seed, "chooses the noise")),
          only_if(planet, number("radius", surface.radius, kLength, "surface units", "planet: radius of its sphere")),
          only_if(isosurface, number("threshold", surface.threshold, {-1e9, 1e9}, "surface units",
                                     "isosurface: solid where the sum exceeds it")),
@@ -251,7 +253,8 @@ Section describe_camera_key(CameraKey& entry, Camera& rest, std::size_t index) {
 
 std::vector<Section> describe(Scene& scene) {
     const bool surface = scene.image == ImageKind::surface;
-    return {top_section(scene),
+    std::vector<Section> all{
+            top_section(scene),
             film_section(scene.film),
             sampling_section(scene.sampling, surface),
             shutter_section(scene.shutter),
@@ -266,6 +269,11 @@ std::vector<Section> describe(Scene& scene) {
             edge_section(scene.edge, scene.image == ImageKind::edge),
             ramp_section(scene.ramp, scene.image == ImageKind::ramp),
             constant_section(scene.constant, scene.image == ImageKind::constant)};
+    for (noise::ReliefTerm& term : scene.surface.relief) {
+        all.push_back(describe_relief_term(term));
+        for (Key& key : all.back().keys) key.matters = surface;
+    }
+    return all;
 }
 
 }  // namespace strata::scene

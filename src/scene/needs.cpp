@@ -5,7 +5,7 @@
 namespace strata::scene {
 
 bool noise_drifts(const Surface& surface) {
-    if (surface.amplitude == 0.0) return false;
+    if (surface.relief.empty() && surface.amplitude == 0.0) return false;
     const glm::dvec3& d = surface.drift;
     return d.x != 0.0 || d.z != 0.0 || (d.y != 0.0 && surface.kind != SurfaceKind::terrain);
 }

@@ -27,7 +27,7 @@ void assign(Scene& scene, std::string_view assignment) {
         throw SceneError("no '=', allowed: section.key=value, such as camera.fov_deg=35");
     }
     const std::string_view full_name = trimmed(assignment.substr(0, equals));
-    const auto dot = full_name.find('.');
+    const auto dot = full_name.rfind('.');  // a term of the relief has one in its section's name
     const std::string_view section_name = dot == std::string_view::npos ? "" : full_name.substr(0, dot);
     const std::string_view name = dot == std::string_view::npos ? full_name : full_name.substr(dot + 1);
 

@@ -10,6 +10,7 @@
 
 #include "src/scene/key_text.h"
 #include "src/scene/keys.h"
+#include "src/scene/relief_keys.h"
 
 namespace strata::scene {
 
@@ -46,6 +47,9 @@ std::string aligned(const std::vector<Line>& lines) {
 std::string print_scene(const Scene& scene, PrintedKeys keys) {
     Scene copy = scene;
     Scene default_scene;
+    for (const noise::ReliefTerm& term : scene.surface.relief) {
+        default_scene.surface.relief.push_back(default_relief_term(term.node.index()));
+    }
     const std::vector<Section> sections = describe(copy);
     const std::vector<Section> defaults = describe(default_scene);
 
@@ -57,10 +61,11 @@ std::string print_scene(const Scene& scene, PrintedKeys keys) {
             const Key& key = section.keys[j];
             const Key& of_defaults = defaults[i].keys[j];
             const bool differs = value_text(key) != value_text(of_defaults);
-            if (keys == PrintedKeys::all || key.matters || differs) lines.push_back(line_of(key, of_defaults));
+            if (keys == PrintedKeys::all || key.matters || differs || section.is_term) lines.push_back(line_of(key, of_defaults));
         }
         if (lines.empty()) continue;
-        if (!section.name.empty()) text += fmt::format("\n[{}]  # {}\n", section.name, section.meaning);
+        const std::string heading = section.is_term ? "[[relief]]" : fmt::format("[{}]", section.name);
+        if (!section.name.empty()) text += fmt::format("\n{}  # {}\n", heading, section.meaning);
         text += aligned(lines);
     }
     return text;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "noise/relief/relief.h"
 #include "src/scene/rate.h"
 
 namespace strata::scene {
@@ -77,6 +78,9 @@ struct Surface {
     double threshold = 0.0;             // isosurface: solid where the sum exceeds it
     BoundKind bound = BoundKind::ball;  // isosurface
     glm::dvec3 bound_size{1.0};         // ball: radius in x; box: half sizes
+
+    // Where there are terms, the last of them stands for the sum over octaves. In scene files: [[relief]].
+    std::vector<noise::ReliefTerm> relief{};
 };
 
 struct Sun {

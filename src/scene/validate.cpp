@@ -10,6 +10,7 @@
 #include "src/scene/camera_path.h"
 #include "src/scene/key_text.h"
 #include "src/scene/keys.h"
+#include "src/scene/relief_keys.h"
 
 namespace strata::scene {
 
@@ -29,6 +30,33 @@ void check_fields(Scene scene) {
         CameraKey& entry = scene.camera.keys[i];
         check_keys(describe_camera_key(entry, scene.camera, i));
     }
+}
+
+void check_relief(const Scene& scene) {
+    const auto& terms = scene.surface.relief;
+    if (terms.size() > kMostReliefTerms) {
+        throw SceneError(fmt::format("relief: {} terms, allowed: {} at most", terms.size(), kMostReliefTerms));
+    }
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+        if (const std::string problem = relief_problem(terms, i); !problem.empty()) throw SceneError(problem);
+    }
+}
+
+// The relief's octaves, wherever a warp reads them.
+void check_relief_octaves(const Scene& scene) {
+    const Surface& surface = scene.surface;
+    const noise::Relief relief(surface.relief, surface.kind == SurfaceKind::terrain ? 2 : 3);
+    double displaced = 0.0;
+    for (const noise::ReliefPart& part : relief.parts()) {
+        if (!part.inputs.empty() && !part.octaves.empty()) displaced += part.amplitude_from.front();
+    }
+    const double farthest = noise_reach(scene) + displaced;
+    if (relief.finest_frequency() * farthest <= kMostCells) return;
+    throw SceneError(fmt::format(
+        "relief: its finest octave has {:.3g} lattice cells a surface unit, and is seen up to {:.3g} surface units from "
+        "surface.origin: more than 2^50 cells, too fine for double precision, allowed: fewer octaves, lower "
+        "frequencies, or a lower camera.far",
+        relief.finest_frequency(), farthest));
 }
 
 std::string point_text(const glm::dvec3& p) {
@@ -99,7 +127,12 @@ void validate(const Scene& scene, std::string_view source_name) {
         check_fields(scene);
         if (scene.image == ImageKind::surface) {
             check_view(scene.camera);
-            check_octaves(scene);
+            check_relief(scene);
+            if (scene.surface.relief.empty()) {
+                check_octaves(scene);
+            } else {
+                check_relief_octaves(scene);
+            }
         }
     } catch (const SceneError& error) {
         if (source_name.empty()) throw;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src/trace/relief_tracer.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/trace/beam_tracer.cpp"
 #include <hwy/foreach_target.h>
@@ -254,6 +256,7 @@ namespace strata::trace {
 HWY_EXPORT(TraceBeams);
 
 void BeamTracer::trace(std::span<const Beam> beams, std::span<BeamEnd> ends, TraceCounters& counters) const {
+    if (relief_) return trace_relief_beams(field_, *relief_, beams, ends, counters);
     HWY_DYNAMIC_DISPATCH(TraceBeams)(field_, plan_, beams, ends, counters);
 }
 

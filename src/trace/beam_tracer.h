@@ -6,18 +6,22 @@
 // choice of one bound an octave, f >= a quadratic in t alone, whose first root is a safe step for the whole bundle.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "src/trace/beam.h"
 #include "src/trace/field.h"
 #include "src/trace/ray.h"
+#include "src/trace/relief_plan.h"
 #include "src/trace/trace_plan.h"
 
 namespace strata::trace {
 
 class BeamTracer {
   public:
-    explicit BeamTracer(const Field& field) : field_(field), plan_(field) {}
+    explicit BeamTracer(const Field& field) : field_(field), plan_(field) {
+        if (field.relief() != nullptr) relief_.emplace(*field.relief());
+    }
 
     // A beam's end depends on that beam alone.
     void trace(std::span<const Beam> beams, std::span<BeamEnd> ends, TraceCounters& counters) const;
@@ -25,6 +29,7 @@ class BeamTracer {
   private:
     const Field& field_;
     TracePlan plan_;
+    std::optional<ReliefPlan> relief_;  // where the field has a composed relief
 };
 
 }  // namespace strata::trace

@@ -1,5 +1,7 @@
 #include "src/trace/fast_tracer.h"
 
+#include "src/trace/relief_tracer.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/trace/fast_tracer.cpp"
 #include <hwy/foreach_target.h>
@@ -277,6 +279,7 @@ namespace strata::trace {
 HWY_EXPORT(Trace);
 
 void FastTracer::trace(std::span<const Ray> rays, std::span<Hit> hits, TraceCounters& counters) const {
+    if (relief_) return trace_relief(field_, plan_, *relief_, rays, hits, counters);
     HWY_DYNAMIC_DISPATCH(Trace)(field_, plan_, rays, hits, counters);
 }
 

@@ -16,17 +16,21 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 
 #include "src/trace/field.h"
 #include "src/trace/ray.h"
+#include "src/trace/relief_plan.h"
 #include "src/trace/trace_plan.h"
 
 namespace strata::trace {
 
 class FastTracer {
   public:
-    explicit FastTracer(const Field& field) : field_(field), plan_(field) {}
+    explicit FastTracer(const Field& field) : field_(field), plan_(field) {
+        if (field.relief() != nullptr) relief_.emplace(*field.relief());
+    }
 
     // A ray's hit depends on that ray alone, whatever its neighbours in the batch.
     void trace(std::span<const Ray> rays, std::span<Hit> hits, TraceCounters& counters) const;
@@ -46,6 +50,7 @@ class FastTracer {
   private:
     const Field& field_;
     TracePlan plan_;
+    std::optional<ReliefPlan> relief_;  // where the field has a composed relief
 };
 
 }  // namespace strata::trace

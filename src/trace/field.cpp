@@ -14,6 +14,7 @@ namespace {
 using scene::SurfaceKind;
 
 std::vector<noise::Octave> live_octaves(const scene::Surface& surface) {
+    if (!surface.relief.empty()) return {};
     std::vector<noise::Octave> octaves = noise::make_octaves({.octaves = surface.octaves,
                                                               .lacunarity = surface.lacunarity,
                                                               .gain = surface.gain,
@@ -63,6 +64,11 @@ Field::Field(const scene::Surface& surface)
     const noise::NoiseBounds& bounds = is_planar_noise() ? noise::kBounds2 : noise::kBounds3;
     const double base_slope = surface_.kind == SurfaceKind::isosurface ? 0.0 : 1.0;
     lipschitz_ = base_slope;
+    if (!surface.relief.empty()) {
+        relief_ = std::make_shared<noise::Relief>(surface.relief, is_planar_noise() ? 2 : 3);
+        amplitude_ = relief_->certificate().size();
+        lipschitz_ += relief_->certificate().slope;
+    }
     for (const noise::Octave& octave : octaves_) {
         amplitude_ += octave.amplitude * bounds.value;
         lipschitz_ += octave.amplitude * octave.frequency * bounds.gradient;
@@ -95,6 +101,7 @@ double Field::octave(std::size_t k, const glm::dvec3& x, const glm::dvec3& shift
 
 double Field::value(const glm::dvec3& x, const glm::dvec3& shift) const {
     double f = base(x);
+    if (relief_) return f - relief_->jet(x + shift).value;
     for (std::size_t k = 0; k < octaves_.size(); ++k) f -= octave(k, x, shift);
     return f;
 }
@@ -110,6 +117,7 @@ glm::dvec3 Field::base_gradient(const glm::dvec3& x) const {
 glm::dvec3 Field::gradient(const glm::dvec3& x, const glm::dvec3& shift) const {
     glm::dvec3 gradient = base_gradient(x);
     const glm::dvec3 at = x + shift;
+    if (relief_) return gradient - relief_->jet(at).gradient;
     for (const noise::Octave& octave : octaves_) {
         const double slope = octave.amplitude * octave.frequency;
         if (is_planar_noise()) {

@@ -6,6 +6,8 @@
 //   planet        base = |x| - R     noise in 3-D
 //   isosurface    base = threshold   noise in 3-D, intersected with a ball or box about the origin
 //
+// In place of the sum there may be a relief composed of terms (noise/relief/relief.h), read at x + shift.
+//
 // This is the reference path: scalar double, by the definition.
 #pragma once
 
@@ -13,6 +15,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "noise/fbm.h"
@@ -35,10 +38,16 @@ class Field {
     const scene::Surface& surface() const { return surface_; }
     bool is_planar_noise() const { return surface_.kind == scene::SurfaceKind::terrain; }
 
-    // Octaves that can change the sum in double, coarsest first.
+    // What stands for the sum, or null.
+    const noise::Relief* relief() const { return relief_.get(); }
+
+    // Noise evaluations at a point where nothing is left out.
+    std::size_t evaluations() const { return relief_ ? relief_->evaluations() : octaves_.size(); }
+
+    // Octaves that can change the sum in double, coarsest first. None where a relief stands for the sum.
     const std::vector<noise::Octave>& octaves() const { return octaves_; }
 
-    // Upper bound of |sum_k a_k n_k|.
+    // Upper bound of |sum_k a_k n_k|, or of the relief's size.
     double amplitude() const { return amplitude_; }
 
     // Upper bound of |grad f|.
@@ -92,6 +101,7 @@ class Field {
 
     scene::Surface surface_;
     std::vector<noise::Octave> octaves_;
+    std::shared_ptr<const noise::Relief> relief_;
     double amplitude_ = 0.0;
     double lipschitz_ = 1.0;
     bool drifts_ = false;

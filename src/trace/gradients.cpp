@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "src/trace/fast_tracer.h"
+#include "src/trace/relief_tracer.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/trace/gradients.cpp"
@@ -109,12 +110,14 @@ HWY_EXPORT(Gradients);
 
 void FastTracer::gradients(std::span<const glm::dvec3> x, std::span<const glm::dvec3> noise_shift,
                            std::span<glm::vec3> gradient, TraceCounters& counters) const {
+    if (relief_) return relief_gradients(field_, *relief_, x, noise_shift, gradient, counters);
     HWY_DYNAMIC_DISPATCH(Gradients)(field_, plan_, {}, x, noise_shift, gradient, counters);
 }
 
 void FastTracer::gradients(std::span<const Hit> hits, std::span<const glm::dvec3> x,
                            std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient,
                            TraceCounters& counters) const {
+    if (relief_) return relief_gradients(field_, *relief_, x, noise_shift, gradient, counters);
     HWY_DYNAMIC_DISPATCH(Gradients)(field_, plan_, hits, x, noise_shift, gradient, counters);
 }
 

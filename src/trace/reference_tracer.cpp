@@ -12,7 +12,7 @@ Hit trace_reference(const Field& field, const Ray& ray) {
     while (s < inside.end) {
         ++hit.steps;
         const double f = field.value(ray.origin + s * ray.direction, ray.noise_shift);
-        hit.noise_evaluations += static_cast<std::uint32_t>(field.octaves().size());
+        hit.noise_evaluations += static_cast<std::uint32_t>(field.evaluations());
         if (f <= 0.0) {
             hit.state = HitState::hit;
             hit.on_bound = inside.enters_bound && hit.steps == 1;

@@ -5,6 +5,7 @@
 
 #include "noise/bounds.h"
 #include "noise/float_error.h"
+#include "src/trace/relief_plan.h"
 
 namespace strata::trace {
 
@@ -17,7 +18,9 @@ constexpr double kSlopeFactors = (kRoundUp - 1.0) + 8 * 0x1p-24;
 
 float round_up(double x) { return static_cast<float>(x * kRoundUp); }
 
-TraceOctave prepare(const noise::Octave& octave) {
+}  // namespace
+
+TraceOctave prepare_octave(const noise::Octave& octave) {
     TraceOctave result;
     result.frequency = octave.frequency;
     result.offset = octave.offset;
@@ -28,8 +31,6 @@ TraceOctave prepare(const noise::Octave& octave) {
     return result;
 }
 
-}  // namespace
-
 TracePlan::TracePlan(const Field& field) {
     const noise::NoiseBounds& bounds = field.is_planar_noise() ? noise::kBounds2 : noise::kBounds3;
     const noise::FloatErrors& errors = field.is_planar_noise() ? noise::kFloatErrors2 : noise::kFloatErrors3;
@@ -38,7 +39,7 @@ TracePlan::TracePlan(const Field& field) {
     half_bend = round_up(0.5 * bounds.second);
     double total = 0.0, slopes = 0.0, rest = 0.0;
     for (const noise::Octave& octave : field.octaves()) {
-        octaves.push_back(prepare(octave));
+        octaves.push_back(prepare_octave(octave));
         total += octave.amplitude;
         slopes += octave.amplitude * octave.frequency;
     }
@@ -53,6 +54,10 @@ TracePlan::TracePlan(const Field& field) {
     error_absolute = round_up(errors.value * total + roundings * 2.0 * field.amplitude());
     slope_error = round_up(errors.slope * slopes + (roundings + kSlopeFactors) * field.lipschitz());
     inverse_lipschitz = static_cast<float>(1.0 / std::max(field.lipschitz(), 1e-30));
+    if (field.relief() != nullptr) {
+        first_hint = ReliefPlan(*field.relief()).first_hint;
+        return;
+    }
     first_hint = octaves.empty() ? 1.0f : static_cast<float>(0.15 / octaves.front().frequency);
 }
 

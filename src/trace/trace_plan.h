@@ -24,6 +24,9 @@ struct TraceOctave {
     float rest = 0.0f;  // upper bound of the sum of this and all finer octaves
 };
 
+// All but `rest`, which is 0.
+TraceOctave prepare_octave(const noise::Octave& octave);
+
 struct TracePlan {
     explicit TracePlan(const Field& field);
 

@@ -1,0 +1,95 @@
+// Bounds of reliefs over their whole domain: their formulas, read with numbers that are bounds.
+#include "noise/relief/certificate.h"
+
+#define STRATA_RELIEF_FORMULAS
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+
+#include "noise/relief/frame.h"
+#include "noise/relief/nodes/all.h"
+
+namespace strata::noise {
+
+namespace {
+
+class BoundNumbers : public ReliefFrame {
+  public:
+    using Number = Certificate;
+    using Displacement = std::array<Number, 3>;
+    // Of the map from the point where the relief is asked for: the Lipschitz constants of itself and of its Jacobian.
+    struct Domain {
+        double slope = 1.0;
+        double bend = 0.0;
+    };
+
+    BoundNumbers(std::span<const ReliefPart> parts, std::size_t index, int dimensions)
+        : ReliefFrame(parts[index], dimensions), parts_(parts) {}
+
+    static Number constant(double x) { return {x, x, 0.0, 0.0}; }
+    static Number plus(const Number& a, const Number& b) {
+        return {a.low + b.low, a.high + b.high, a.slope + b.slope, a.bend + b.bend};
+    }
+    static Number scaled(const Number& a, double by) {
+        return {std::min(by * a.low, by * a.high), std::max(by * a.low, by * a.high), std::abs(by) * a.slope,
+                std::abs(by) * a.bend};
+    }
+    // (a b)'' = a b'' + 2 a' b' + a'' b.
+    static Number product(const Number& a, const Number& b) {
+        const auto [low, high] = std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+        return {low, high, a.size() * b.slope + b.size() * a.slope,
+                a.size() * b.bend + 2.0 * a.slope * b.slope + b.size() * a.bend};
+    }
+    // g(r)'' = g' r'' + g'' r'^2.
+    template <class Curve>
+    static Number curved(const Curve& curve, const Number& a) {
+        const auto [low, high] = curve.range(a.low, a.high);
+        const double steepest = curve.steepest(a.low, a.high);
+        const double bend = std::max(curve.bend_up(a.low, a.high), curve.bend_down(a.low, a.high));
+        return {low, high, steepest * a.slope, steepest * a.bend + bend * a.slope * a.slope};
+    }
+
+    Number octave(std::size_t k, const Domain& at) const {
+        const double frequency = part().octaves[k].frequency, across = frequency * at.slope;
+        return {-peak(), peak(), bounds().gradient * across,
+                bounds().second * across * across + bounds().gradient * frequency * at.bend};
+    }
+
+    static Number begin_sum() { return {}; }
+    static bool sees(Number&, std::size_t, const Domain&, double, double) { return true; }
+    static void add(Number& sum, const Number& term) { sum = plus(sum, term); }
+    static Number total(const Number& sum) { return sum; }
+
+    static Displacement no_displacement() { return {}; }
+    // The components' slopes are those of one row of the Jacobian each: their squares add up.
+    Domain displaced(const Domain& at, const Displacement& u) const {
+        double slope = 0.0, bend = 0.0;
+        for (std::size_t i = 0; i < dimensions(); ++i) {
+            slope += u[i].slope * u[i].slope;
+            bend += u[i].bend * u[i].bend;
+        }
+        return {at.slope + std::sqrt(slope), at.bend + std::sqrt(bend)};
+    }
+
+    Number input(std::size_t i, const Domain& at) const {
+        return of(parts_, part().inputs[i], static_cast<int>(dimensions()), at);
+    }
+
+    static Number of(std::span<const ReliefPart> parts, std::size_t index, int dimensions, const Domain& at) {
+        BoundNumbers numbers(parts, index, dimensions);
+        return std::visit([&](const auto& node) { return HWY_NAMESPACE::relief_of(node, numbers, at); },
+                          parts[index].node);
+    }
+
+  private:
+    std::span<const ReliefPart> parts_;
+};
+
+}  // namespace
+
+Certificate certificate_of(std::span<const ReliefPart> parts, std::size_t last, int dimensions) {
+    return BoundNumbers::of(parts, last, dimensions, {});
+}
+
+}  // namespace strata::noise

@@ -1,0 +1,139 @@
+#include "src/scene/relief_keys.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "src/scene/key_text.h"
+
+namespace strata::scene {
+
+namespace {
+
+using noise::ReliefNode;
+using noise::ReliefTerm;
+
+template <std::size_t... I>
+constexpr std::array<std::string_view, sizeof...(I)> type_names(std::index_sequence<I...>) {
+    return {std::variant_alternative_t<I, ReliefNode>::kType...};
+}
+
+constexpr std::size_t kTypes = std::variant_size_v<ReliefNode>;
+constexpr auto kTypeNames = type_names(std::make_index_sequence<kTypes>{});
+
+template <std::size_t I = 0>
+ReliefNode default_node(std::size_t type) {
+    if constexpr (I + 1 < kTypes) {
+        if (type != I) return default_node<I + 1>(type);
+    }
+    return ReliefNode(std::in_place_index<I>);
+}
+
+// What nodes tell their keys to.
+class KeyList {
+  public:
+    void number(std::string name, double& field, double min, double max, std::string_view unit,
+                std::string_view meaning) {
+        add({.section = {}, .name = std::move(name), .field = &field, .range = {min, max}, .unit = unit,
+             .meaning = meaning});
+    }
+    void count(std::string name, int& field, int min, int max, std::string_view meaning) {
+        add({.section = {}, .name = std::move(name), .field = &field,
+             .range = {static_cast<double>(min), static_cast<double>(max)}, .unit = {}, .meaning = meaning});
+    }
+    void seed(std::string name, std::uint64_t& field, std::string_view meaning) {
+        add({.section = {}, .name = std::move(name), .field = &field, .range = {}, .unit = {}, .meaning = meaning});
+    }
+    void octaves(noise::FbmParameters& p) {
+        count("octaves", p.octaves, 1, noise::kMaxOctaves, "terms of its sum");
+        number("lacunarity", p.lacunarity, 1.0, 10.0, "", "frequency ratio of neighbouring octaves");
+        number("gain", p.gain, 0.0, 1.0, "", "amplitude ratio of neighbouring octaves");
+        number("amplitude", p.amplitude, 0.0, 1e6, "surface units", "amplitude of octave 0");
+        number("frequency", p.frequency, 1e-9, 1e9, "lattice cells a surface unit", "frequency of octave 0");
+        seed("seed", p.seed, "chooses the noise");
+    }
+
+    void add(Key key) { keys_.push_back(std::move(key)); }
+    std::vector<Key> take() { return std::move(keys_); }
+
+  private:
+    std::vector<Key> keys_;
+};
+
+bool is_name(std::string_view name) {
+    const auto is_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+    return !name.empty() && name.size() <= 64 && std::isalpha(static_cast<unsigned char>(name.front())) != 0 &&
+           std::ranges::all_of(name, is_word);
+}
+
+std::string inputs_allowed(int fewest, int most) {
+    if (most == 0) return "no `of`, it takes no other terms";
+    if (fewest == most) return fmt::format("{} term{} before it", most, most == 1 ? "" : "s");
+    return fmt::format("{} to {} terms before it", fewest, most);
+}
+
+std::string inputs_problem(std::span<const ReliefTerm> terms, std::size_t i) {
+    const ReliefTerm& term = terms[i];
+    const auto [fewest, most] = std::visit(
+        [](const auto& node) { return std::pair(node.kFewestInputs, node.kMostInputs); }, term.node);
+    const auto count = static_cast<int>(term.of.size());
+    if (count < fewest || count > most) {
+        return fmt::format("relief.{}.of: {} names, allowed: {}", term.name, count, inputs_allowed(fewest, most));
+    }
+    for (const std::string& name : term.of) {
+        const auto before = terms.first(i);
+        if (std::ranges::find(before, name, &ReliefTerm::name) != before.end()) continue;
+        std::vector<std::string_view> names;
+        for (const ReliefTerm& other : before) names.push_back(other.name);
+        return fmt::format("relief.{}.of: unknown name (\"{}\"), allowed: a term before it{}{}", term.name,
+                           excerpt(name), names.empty() ? ", but it is the first" : ": ", fmt::join(names, ", "));
+    }
+    return {};
+}
+
+}  // namespace
+
+std::span<const std::string_view> relief_types() { return kTypeNames; }
+
+std::string_view relief_meaning(const ReliefTerm& term) {
+    return std::visit([](const auto& node) { return node.kMeaning; }, term.node);
+}
+
+ReliefTerm default_relief_term(std::size_t type) { return {.name = {}, .of = {}, .node = default_node(type)}; }
+
+Section describe_relief_term(ReliefTerm& term) {
+    KeyList list;
+    list.add({.section = {}, .name = "name", .field = &term.name, .range = {}, .unit = {},
+              .meaning = "what later terms and --set call it"});
+    list.add({.section = {}, .name = "type",
+              .field = Choice{kTypeNames, [&term] { return term.node.index(); },
+                              [&term](std::size_t type) {
+                                  if (type != term.node.index()) term.node = default_node(type);
+                              }},
+              .range = {}, .unit = {}, .meaning = relief_meaning(term)});
+    list.add({.section = {}, .name = "of", .field = &term.of, .range = {}, .unit = {},
+              .meaning = "the terms before it that it works on"});
+    std::visit([&](auto& node) { node.keys(list); }, term.node);
+    Section section{"relief." + term.name, relief_meaning(term), list.take(), true};
+    for (Key& key : section.keys) key.section = section.name;
+    return section;
+}
+
+std::string relief_problem(std::span<const ReliefTerm> terms, std::size_t i) {
+    const ReliefTerm& term = terms[i];
+    if (!is_name(term.name)) {
+        return fmt::format("relief[{}].name: not a name (\"{}\"), allowed: a letter, then letters, digits, '_' and '-', "
+                           "64 at most", i, excerpt(term.name));
+    }
+    if (std::ranges::find(terms.first(i), term.name, &ReliefTerm::name) != terms.first(i).end()) {
+        return fmt::format("relief[{}].name: there already (\"{}\"), allowed: a name that no other term has", i,
+                           term.name);
+    }
+    return inputs_problem(terms, i);
+}
+
+}  // namespace strata::scene

@@ -1,0 +1,119 @@
+// Reliefs in double: gradients, and certificates of the whole domain.
+#include "noise/relief/relief.h"
+
+#include <doctest/doctest.h>
+
+#include <random>
+#include <stdexcept>
+
+#define STRATA_RELIEF_FORMULAS
+#include <hwy/highway.h>
+
+#include "noise/relief/curves-inl.h"
+
+namespace {
+
+using namespace strata::noise;
+
+double uniform(std::mt19937_64& random, double lo, double hi) {
+    return std::uniform_real_distribution<double>(lo, hi)(random);
+}
+
+std::vector<std::vector<ReliefTerm>> reliefs() {
+    Ridged ridged, sharp, even;
+    sharp.roundness = 0.01;
+    even.feedback = 0.0;
+    Warp warp;
+    warp.parameters.octaves = 2;
+    return {{{"a", {}, Fbm{}}},
+            {{"a", {}, ridged}},
+            {{"a", {}, sharp}},
+            {{"a", {}, even}},
+            {{"a", {}, ridged}, {"b", {"a"}, warp}},
+            {{"a", {}, Fbm{}}, {"b", {"a"}, warp}, {"c", {}, ridged}, {"d", {"b", "c"}, Sum{-0.5, 0.3}}}};
+}
+
+}  // namespace
+
+TEST_CASE("a relief's gradient is the limit of its differences") {
+    std::mt19937_64 random(1);
+    for (const int dimensions : {2, 3}) {
+        for (const auto& terms : reliefs()) {
+            const Relief relief(terms, dimensions);
+            for (int i = 0; i < 200; ++i) {
+                const glm::dvec3 x{uniform(random, -30, 30), uniform(random, -30, 30), uniform(random, -30, 30)};
+                const ReliefJet jet = relief.jet(x);
+                for (int a = 0; a < 3; ++a) {
+                    glm::dvec3 step{0.0};
+                    step[a] = 1e-6;
+                    const double difference = (relief.jet(x + step).value - relief.jet(x - step).value) / 2e-6;
+                    CHECK(jet.gradient[a] ==
+                          doctest::Approx(difference).epsilon(1e-5).scale(relief.certificate().slope));
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("values, slopes and bends stay within a relief's certificate") {
+    std::mt19937_64 random(2);
+    for (const int dimensions : {2, 3}) {
+        for (const auto& terms : reliefs()) {
+            const Relief relief(terms, dimensions);
+            const Certificate& found = relief.certificate();
+            double low = 1e9, high = -1e9, slope = 0.0, bend = 0.0;
+            for (int i = 0; i < 4000; ++i) {
+                const glm::dvec3 x{uniform(random, -99, 99), uniform(random, -99, 99), uniform(random, -99, 99)};
+                const glm::dvec3 step = 1e-5 * glm::normalize(glm::dvec3(uniform(random, -1, 1), uniform(random, -1, 1),
+                                                                         uniform(random, -1, 1)));
+                const ReliefJet a = relief.jet(x), b = relief.jet(x + step);
+                low = std::min(low, a.value);
+                high = std::max(high, a.value);
+                slope = std::max(slope, glm::length(a.gradient));
+                bend = std::max(bend, glm::length(b.gradient - a.gradient) / glm::length(step));
+            }
+            MESSAGE(dimensions << "-D, " << terms.size() << " terms: range [" << low << ", " << high << "] of ["
+                               << found.low << ", " << found.high << "], slope " << slope << " of " << found.slope
+                               << ", bend " << bend << " of " << found.bend);
+            CHECK(low >= found.low);
+            CHECK(high <= found.high);
+            CHECK(slope <= found.slope);
+            CHECK(bend <= found.bend * (1 + 1e-3));
+            CHECK(high - low > 0.2 * (found.high - found.low));
+        }
+    }
+}
+
+TEST_CASE("a curve's value, slope and bends stay within its bounds on any interval") {
+    using namespace strata::noise::HWY_NAMESPACE;
+    std::mt19937_64 random(3);
+    const auto check = [&](const auto& curve, double from, double to) {
+        double tightest = 0.0;
+        for (int i = 0; i < 20000; ++i) {
+            const double a = uniform(random, from, to), b = uniform(random, from, to);
+            const double lo = std::min(a, b), hi = std::max(a, b), v = uniform(random, lo, hi), h = 1e-6;
+            const auto [least_value, most_value] = curve.range(lo, hi);
+            REQUIRE(curve.value(v) >= least_value - 1e-12);
+            REQUIRE(curve.value(v) <= most_value + 1e-12);
+            REQUIRE(std::abs(curve.slope(v)) <= curve.steepest(lo, hi) + 1e-12);
+            if (hi - lo < 3 * h) continue;
+            const double at = std::clamp(v, lo + h, hi - h);
+            const double second = (curve.slope(at + h) - curve.slope(at - h)) / (2 * h);
+            REQUIRE(second <= curve.bend_up(lo, hi) + 1e-4);
+            REQUIRE(-second <= curve.bend_down(lo, hi) + 1e-4 * curve.bend_down(lo, hi) + 1e-4);
+            REQUIRE(curve.slope(at) == doctest::Approx((curve.value(at + h) - curve.value(at - h)) / (2 * h)).epsilon(1e-4));
+            if (curve.bend_down(lo, hi) > 0.1) tightest = std::max(tightest, -second / curve.bend_down(lo, hi));
+        }
+        MESSAGE("bend down attained to " << tightest);
+    };
+    for (const double roundness : {0.01, 0.05, 0.3, 0.9}) check(RidgeCurve{roundness}, -1.0, 1.0);
+    check(SoftClip{}, 0.0, 4.0);
+}
+
+TEST_CASE("a relief of no terms, of an unknown name or of too many inputs is refused") {
+    CHECK_THROWS_AS(Relief({}, 2), std::invalid_argument);
+    const std::vector<ReliefTerm> unknown{{"a", {"b"}, Warp{}}};
+    CHECK_THROWS_AS(Relief(unknown, 2), std::invalid_argument);
+    const std::vector<ReliefTerm> crowded{{"a", {}, Fbm{}}, {"b", {"a"}, Fbm{}}};
+    CHECK_THROWS_AS(Relief(crowded, 2), std::invalid_argument);
+}

@@ -1,0 +1,115 @@
+// Random compositions of relief terms, and the judgement of rays through them by an oracle that reads them itself.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/trace/ray_families.h"
+#include "tools/stability/oracles/relief_oracle.h"
+
+namespace strata::trace_test {
+
+// Octaves whose steepest one has a slope of about 0.5 to 3.
+inline noise::FbmParameters random_octaves(Random& random, int most, double size) {
+    noise::FbmParameters p;
+    p.octaves = 1 + static_cast<int>(random() % static_cast<unsigned>(most));
+    p.lacunarity = uniform(random, 1.8, 2.4);
+    p.gain = uniform(random, 0.35, 0.55);
+    p.frequency = log_uniform(random, 0.15, 1.5);
+    p.amplitude = size * uniform(random, 0.1, 0.4) / p.frequency;
+    p.seed = random() >> 1;
+    return p;
+}
+
+inline noise::ReliefTerm random_leaf(Random& random, std::string name) {
+    if (random() % 2 == 0) return {std::move(name), {}, noise::Fbm{random_octaves(random, 6, 1.0)}};
+    noise::Ridged ridged{random_octaves(random, 6, 1.0)};
+    ridged.roundness = log_uniform(random, 0.01, 0.4);
+    ridged.feedback = random() % 3 == 0 ? 0.0 : uniform(random, 0.5, 3.0);
+    return {std::move(name), {}, ridged};
+}
+
+// One to four terms: a leaf, perhaps warped, perhaps on top of another one.
+inline std::vector<noise::ReliefTerm> random_relief(Random& random) {
+    std::vector<noise::ReliefTerm> terms{random_leaf(random, "a")};
+    if (random() % 2 == 0) {
+        noise::Warp warp{random_octaves(random, 2, 0.5)};
+        terms.push_back({"b", {"a"}, warp});
+    }
+    if (random() % 2 == 0) {
+        const std::string before = terms.back().name;
+        terms.push_back(random_leaf(random, "c"));
+        terms.push_back({"d", {before, "c"}, noise::Sum{uniform(random, -1.0, 1.0), uniform(random, -0.2, 0.2)}});
+    }
+    return terms;
+}
+
+inline scene::Surface random_composed_surface(Random& random) {
+    scene::Surface surface = random_surface(random);
+    surface.relief = random_relief(random);
+    if (surface.kind == scene::SurfaceKind::isosurface) {
+        const noise::Certificate found = noise::Relief(surface.relief, 3).certificate();
+        surface.threshold = 0.5 * (found.low + found.high) + uniform(random, -0.1, 0.1) * (found.high - found.low);
+    }
+    return surface;
+}
+
+// f of a composed surface along a ray, with a distance over which it keeps its sign.
+class ComposedField {
+  public:
+    explicit ComposedField(const scene::Surface& surface)
+        : shape_(oracle::shape_of(surface)),
+          bare_(bare(surface)),
+          relief_(surface.relief, surface.kind == scene::SurfaceKind::terrain),
+          slope_(relief_.slope() + (surface.kind == scene::SurfaceKind::isosurface ? 0.0 : 1.0)) {}
+
+    oracle::Probe probe(const oracle::Vec& p) const {
+        const double f = bare_.base(p) - relief_.value(p);
+        return {f, std::abs(f) / slope_};
+    }
+    const oracle::Shape& shape() const { return shape_; }
+
+  private:
+    static oracle::FieldOracle bare(const scene::Surface& surface) {
+        oracle::Shape shape = oracle::shape_of(surface);
+        shape.octaves = 0;
+        return oracle::FieldOracle(shape);
+    }
+
+    oracle::Shape shape_;
+    oracle::FieldOracle bare_;
+    oracle::ReliefOracle relief_;
+    double slope_;
+};
+
+inline Judgement judge_composed(const scene::Surface& surface, std::span<const trace::Ray> rays,
+                                std::span<const trace::Hit> hits) {
+    const ComposedField field(surface);
+    Judgement total;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const trace::Ray& ray = rays[i];
+        const oracle::Vec p{ray.origin.x, ray.origin.y, ray.origin.z};
+        const oracle::Vec d{ray.direction.x, ray.direction.y, ray.direction.z};
+        const auto delta = [&](double t) { return ray.delta0 + ray.delta_slope * t; };
+        const auto f = [&](double t) {
+            return field.probe({p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]});
+        };
+        const bool hit = hits[i].state == trace::HitState::hit;
+        ++total.rays;
+        total.hits += hit;
+        total.unresolved += hits[i].state == trace::HitState::unresolved;
+        const oracle::Verdict verdict =
+            oracle::judge_ray(f, oracle::clip(field.shape(), p, d, ray.limit), delta, {hit, hits[i].s});
+        total.missed += verdict.missed;
+        total.unfounded += verdict.unfounded;
+        total.undecided += verdict.undecided;
+        total.thickest = std::max(total.thickest, verdict.thickest);
+        if (!verdict.ok()) {
+            total.origin = ray.origin;
+            total.direction = ray.direction;
+        }
+    }
+    return total;
+}
+
+}  // namespace strata::trace_test
