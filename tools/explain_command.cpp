@@ -126,6 +126,7 @@ void add_explain_command(Command& program, int& exit_code) {
         "octaves [{octave, amplitude, wavelength, pixel_wide_at, below_tolerance_from, roles [{from, to, role}]}] "
         "with\n"
         "role geometry (hits and normals), normal or nothing; below_tolerance_from is null for isosurfaces;\n"
+        "relief [{name, type, of, octaves, low, high, slope, bend}], its terms with bounds in surface units;\n"
         "pilot {rays, share, cpu_seconds} or null; recorded {passes, threads, simd_target} or null, of --stats;\n"
         "costs {rays, shadow_rays, hits, noise_evaluations, executed_lanes, steps, cpu_seconds, seconds,\n"
         "peak_memory_bytes}, each {predicted, actual, ratio}, null where not known. Of several "

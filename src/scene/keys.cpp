@@ -152,10 +152,12 @@ Section surface_section(Surface& surface, bool matters) {
          vector("drift", surface.drift, kDrift, "surface units/s",
                 "how the noise moves through the surface, in its own directions: terrain flows, bodies morph"),
          only_if(own_sum, count("octaves", surface.octaves, {1, 32}, "", "terms of the sum")),
-         only_if(own_sum, number("lacunarity", surface.lacunarity, {1.0, 10.0}, "", "frequency ratio of neighbouring octaves")),
+         only_if(own_sum,
+                 number("lacunarity", surface.lacunarity, {1.0, 10.0}, "", "frequency ratio of neighbouring octaves")),
          only_if(own_sum, number("gain", surface.gain, {0.0, 1.0}, "", "amplitude ratio of neighbouring octaves")),
          only_if(own_sum, number("amplitude", surface.amplitude, {0.0, 1e6}, "surface units", "amplitude of octave 0")),
-         only_if(own_sum, number("frequency", surface.frequency, {1e-9, 1e9}, "lattice cells a surface unit", "frequency of octave 0")),
+         only_if(own_sum, number("frequency", surface.frequency, {1e-9, 1e9}, "lattice cells a surface unit",
+                                 "frequency of octave 0")),
          only_if(own_sum, seed("seed", surface.seed, "chooses the noise")),
          only_if(planet, number("radius", surface.radius, kLength, "surface units", "planet: radius of its sphere")),
          only_if(isosurface, number("threshold", surface.threshold, {-1e9, 1e9}, "surface units",
@@ -253,22 +255,21 @@ Section describe_camera_key(CameraKey& entry, Camera& rest, std::size_t index) {
 
 std::vector<Section> describe(Scene& scene) {
     const bool surface = scene.image == ImageKind::surface;
-    std::vector<Section> all{
-            top_section(scene),
-            film_section(scene.film),
-            sampling_section(scene.sampling, surface),
-            shutter_section(scene.shutter),
-            camera_section(scene.camera, surface),
-            surface_section(scene.surface, surface),
-            sun_section(scene.sun, surface),
-            sky_section(scene.sky, surface),
-            material_section(scene.material, surface),
-            zoneplate_section(scene.zoneplate, scene.image == ImageKind::zoneplate),
-            checker_section(scene.checker, scene.image == ImageKind::checker),
-            wheel_section(scene.wheel, scene.image == ImageKind::wheel),
-            edge_section(scene.edge, scene.image == ImageKind::edge),
-            ramp_section(scene.ramp, scene.image == ImageKind::ramp),
-            constant_section(scene.constant, scene.image == ImageKind::constant)};
+    std::vector<Section> all{top_section(scene),
+                             film_section(scene.film),
+                             sampling_section(scene.sampling, surface),
+                             shutter_section(scene.shutter),
+                             camera_section(scene.camera, surface),
+                             surface_section(scene.surface, surface),
+                             sun_section(scene.sun, surface),
+                             sky_section(scene.sky, surface),
+                             material_section(scene.material, surface),
+                             zoneplate_section(scene.zoneplate, scene.image == ImageKind::zoneplate),
+                             checker_section(scene.checker, scene.image == ImageKind::checker),
+                             wheel_section(scene.wheel, scene.image == ImageKind::wheel),
+                             edge_section(scene.edge, scene.image == ImageKind::edge),
+                             ramp_section(scene.ramp, scene.image == ImageKind::ramp),
+                             constant_section(scene.constant, scene.image == ImageKind::constant)};
     for (noise::ReliefTerm& term : scene.surface.relief) {
         all.push_back(describe_relief_term(term));
         for (Key& key : all.back().keys) key.matters = surface;

@@ -61,7 +61,8 @@ std::string print_scene(const Scene& scene, PrintedKeys keys) {
             const Key& key = section.keys[j];
             const Key& of_defaults = defaults[i].keys[j];
             const bool differs = value_text(key) != value_text(of_defaults);
-            if (keys == PrintedKeys::all || key.matters || differs || section.is_term) lines.push_back(line_of(key, of_defaults));
+            if (keys == PrintedKeys::all || key.matters || differs || section.is_term)
+                lines.push_back(line_of(key, of_defaults));
         }
         if (lines.empty()) continue;
         const std::string heading = section.is_term ? "[[relief]]" : fmt::format("[{}]", section.name);

@@ -38,12 +38,20 @@ class KeyList {
   public:
     void number(std::string name, double& field, double min, double max, std::string_view unit,
                 std::string_view meaning) {
-        add({.section = {}, .name = std::move(name), .field = &field, .range = {min, max}, .unit = unit,
+        add({.section = {},
+             .name = std::move(name),
+             .field = &field,
+             .range = {min, max},
+             .unit = unit,
              .meaning = meaning});
     }
     void count(std::string name, int& field, int min, int max, std::string_view meaning) {
-        add({.section = {}, .name = std::move(name), .field = &field,
-             .range = {static_cast<double>(min), static_cast<double>(max)}, .unit = {}, .meaning = meaning});
+        add({.section = {},
+             .name = std::move(name),
+             .field = &field,
+             .range = {static_cast<double>(min), static_cast<double>(max)},
+             .unit = {},
+             .meaning = meaning});
     }
     void seed(std::string name, std::uint64_t& field, std::string_view meaning) {
         add({.section = {}, .name = std::move(name), .field = &field, .range = {}, .unit = {}, .meaning = meaning});
@@ -78,8 +86,8 @@ std::string inputs_allowed(int fewest, int most) {
 
 std::string inputs_problem(std::span<const ReliefTerm> terms, std::size_t i) {
     const ReliefTerm& term = terms[i];
-    const auto [fewest, most] = std::visit(
-        [](const auto& node) { return std::pair(node.kFewestInputs, node.kMostInputs); }, term.node);
+    const auto [fewest, most] =
+        std::visit([](const auto& node) { return std::pair(node.kFewestInputs, node.kMostInputs); }, term.node);
     const auto count = static_cast<int>(term.of.size());
     if (count < fewest || count > most) {
         return fmt::format("relief.{}.of: {} names, allowed: {}", term.name, count, inputs_allowed(fewest, most));
@@ -107,15 +115,26 @@ ReliefTerm default_relief_term(std::size_t type) { return {.name = {}, .of = {},
 
 Section describe_relief_term(ReliefTerm& term) {
     KeyList list;
-    list.add({.section = {}, .name = "name", .field = &term.name, .range = {}, .unit = {},
+    list.add({.section = {},
+              .name = "name",
+              .field = &term.name,
+              .range = {},
+              .unit = {},
               .meaning = "what later terms and --set call it"});
-    list.add({.section = {}, .name = "type",
+    list.add({.section = {},
+              .name = "type",
               .field = Choice{kTypeNames, [&term] { return term.node.index(); },
                               [&term](std::size_t type) {
                                   if (type != term.node.index()) term.node = default_node(type);
                               }},
-              .range = {}, .unit = {}, .meaning = relief_meaning(term)});
-    list.add({.section = {}, .name = "of", .field = &term.of, .range = {}, .unit = {},
+              .range = {},
+              .unit = {},
+              .meaning = relief_meaning(term)});
+    list.add({.section = {},
+              .name = "of",
+              .field = &term.of,
+              .range = {},
+              .unit = {},
               .meaning = "the terms before it that it works on"});
     std::visit([&](auto& node) { node.keys(list); }, term.node);
     Section section{"relief." + term.name, relief_meaning(term), list.take(), true};
@@ -126,8 +145,10 @@ Section describe_relief_term(ReliefTerm& term) {
 std::string relief_problem(std::span<const ReliefTerm> terms, std::size_t i) {
     const ReliefTerm& term = terms[i];
     if (!is_name(term.name)) {
-        return fmt::format("relief[{}].name: not a name (\"{}\"), allowed: a letter, then letters, digits, '_' and '-', "
-                           "64 at most", i, excerpt(term.name));
+        return fmt::format(
+            "relief[{}].name: not a name (\"{}\"), allowed: a letter, then letters, digits, '_' and '-', "
+            "64 at most",
+            i, excerpt(term.name));
     }
     if (std::ranges::find(terms.first(i), term.name, &ReliefTerm::name) != terms.first(i).end()) {
         return fmt::format("relief[{}].name: there already (\"{}\"), allowed: a name that no other term has", i,

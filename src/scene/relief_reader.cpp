@@ -16,9 +16,10 @@ namespace strata::scene {
 namespace {
 
 Fault not_terms(const toml::node& node) {
-    return fault_at(node.source().begin, fmt::format("relief: wrong type ({}), allowed: terms, each [[relief]] with its "
-                                                     "keys below it, or an array of tables",
-                                                     node_text(node)));
+    return fault_at(node.source().begin,
+                    fmt::format("relief: wrong type ({}), allowed: terms, each [[relief]] with its "
+                                "keys below it, or an array of tables",
+                                node_text(node)));
 }
 
 Fault missing(const toml::table& table, std::size_t index, std::string_view key, std::string_view allowed) {

@@ -11,8 +11,8 @@
 
 #include "src/scene/key_lookup.h"
 #include "src/scene/key_text.h"
-#include "src/scene/scene_text.h"
 #include "src/scene/relief_reader.h"
+#include "src/scene/scene_text.h"
 #include "src/scene/toml_assign.h"
 #include "src/scene/typed_value.h"
 

@@ -53,7 +53,8 @@ void check_relief_octaves(const Scene& scene) {
     const double farthest = noise_reach(scene) + displaced;
     if (relief.finest_frequency() * farthest <= kMostCells) return;
     throw SceneError(fmt::format(
-        "relief: its finest octave has {:.3g} lattice cells a surface unit, and is seen up to {:.3g} surface units from "
+        "relief: its finest octave has {:.3g} lattice cells a surface unit, and is seen up to {:.3g} surface units "
+        "from "
         "surface.origin: more than 2^50 cells, too fine for double precision, allowed: fewer octaves, lower "
         "frequencies, or a lower camera.far",
         relief.finest_frequency(), farthest));

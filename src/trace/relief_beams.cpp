@@ -40,8 +40,8 @@ struct ReliefBeams {
     std::size_t active_count = 0;
 };
 
-HWY_INLINE void take(ReliefBeams& packet, std::size_t lane, const Beam& beam, std::size_t index,
-                     const ReliefPlan& plan, bool is_planar) {
+HWY_INLINE void take(ReliefBeams& packet, std::size_t lane, const Beam& beam, std::size_t index, const ReliefPlan& plan,
+                     bool is_planar) {
     for (int a = 0; a < 3; ++a) {
         packet.origin[a][lane] = beam.origin[a];
         packet.direction[a][lane] = beam.direction[a];
@@ -67,7 +67,8 @@ struct BeamStep {
 
 // f on the axis point x, and the step over which the whole bundle stays outside. With D = t d + e, e across d and
 // |e| <= radius + spread t, and n the noise's own displacement, |n| <= noise_radius:
-//   f >= base - r - slack(|D + n|) + (grad base - grad r) . D - grad r . n,   |D + n| <= (speed + spread) t + all radii.
+//   f >= base - r - slack(|D + n|) + (grad base - grad r) . D - grad r . n,   |D + n| <= (speed + spread) t + all
+//   radii.
 template <bool kPlanar>
 HWY_INLINE BeamStep step_beam(const Field& field, const ReliefPlan& plan, const ReliefBeams& packet,
                               TraceCounters& counters) {
@@ -101,7 +102,8 @@ HWY_INLINE BeamStep step_beam(const Field& field, const ReliefPlan& plan, const 
     FloatVec start = hn::Sub(hn::Sub(base.value, r.value), hn::Add(error, r.up.at(radius)));
     start = hn::Sub(start, hn::MulAdd(pull, own, hn::Mul(hn::Mul(steep, up), drift)));
     const FloatVec twice = hn::Mul(set(2.0f), hn::Mul(r.up.e2, radius));
-    const FloatVec rate = hn::Sub(hn::Sub(along, off), hn::MulAdd(pull, spread, hn::Mul(pace, hn::Add(r.up.e1, twice))));
+    const FloatVec rate =
+        hn::Sub(hn::Sub(along, off), hn::MulAdd(pull, spread, hn::Mul(pace, hn::Add(r.up.e1, twice))));
     const FloatVec root = first_root(start, rate, hn::Mul(r.up.e2, hn::Mul(pace, pace)));
     return {hn::Min(root, hint), along, radius};
 }
@@ -115,7 +117,8 @@ HWY_INLINE void move_beam(ReliefBeams& packet, std::size_t lane, float safe, flo
     const bool gains = safe > 0.0f && safe >= least;
     const bool may_shrink = !gains && hint > 2.0f * std::max(least, 1e-30f);
     const bool ends_here = misses || ++packet.steps[lane] >= kMostReliefBeamSteps || !(gains || may_shrink);
-    packet.hint[lane] = gains ? std::min(kBeamGrow * safe, 1e15f) : std::max(kBeamShrink * hint, std::max(least, 1e-30f));
+    packet.hint[lane] =
+        gains ? std::min(kBeamGrow * safe, 1e15f) : std::max(kBeamShrink * hint, std::max(least, 1e-30f));
     if (!ends_here) return;
     ends[packet.beam[lane]] = {packet.s[lane], packet.hint[lane], slope, misses};
     packet.active[lane] = 0.0f;

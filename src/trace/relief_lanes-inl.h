@@ -50,9 +50,7 @@ namespace strata::noise::HWY_NAMESPACE {
 
 template <>
 struct Fixed<trace::HWY_NAMESPACE::Lanes> {
-    static HWY_INLINE trace::HWY_NAMESPACE::Lanes of(double x) {
-        return {hn::Set(FloatTag(), static_cast<float>(x))};
-    }
+    static HWY_INLINE trace::HWY_NAMESPACE::Lanes of(double x) { return {hn::Set(FloatTag(), static_cast<float>(x))}; }
 };
 
 }  // namespace strata::noise::HWY_NAMESPACE
@@ -130,11 +128,11 @@ HWY_INLINE Enclosure rounded(Enclosure x) {
 
 // What the points of a call share, a lane each.
 struct ReliefPoints {
-    FloatVec radius;               // of the ball in which the bounds hold
-    hn::Mask<FloatTag> active;     // the lanes that are asked for
-    hn::Mask<FloatTag> whole;      // those in which no octave is left out
-    TraceCounters* counters;       // noise evaluations and lanes are added
-    FloatVec* evaluations;         // of each lane, added to
+    FloatVec radius;            // of the ball in which the bounds hold
+    hn::Mask<FloatTag> active;  // the lanes that are asked for
+    hn::Mask<FloatTag> whole;   // those in which no octave is left out
+    TraceCounters* counters;    // noise evaluations and lanes are added
+    FloatVec* evaluations;      // of each lane, added to
 };
 
 template <bool kPlanar>
@@ -180,8 +178,8 @@ class LaneNumbers : public noise::ReliefFrame {
         const FloatVec factor = set(by), size = set(std::abs(by));
         const Slack& up = by < 0.0 ? a.down : a.up;
         const Slack& down = by < 0.0 ? a.up : a.down;
-        return rounded({hn::Mul(a.value, factor), HWY_NAMESPACE::scaled(a.gradient, factor), times(up, size),
-                        times(down, size)});
+        return rounded(
+            {hn::Mul(a.value, factor), HWY_NAMESPACE::scaled(a.gradient, factor), times(up, size), times(down, size)});
     }
 
     // With a = v + p and b = w + q, a b = v w + v q + w p + p q; |p| and |q| are each bounded by e0 + k |D|.
@@ -327,9 +325,8 @@ class LaneNumbers : public noise::ReliefFrame {
                                   const ReliefPoints& points) {
         LaneNumbers numbers(plan, index, points);
         Number result = constant(0.0);
-        std::visit(
-            [&](const auto& node) HWY_ATTR { result = noise::HWY_NAMESPACE::relief_of(node, numbers, at); },
-            plan.relief->parts()[index].node);
+        std::visit([&](const auto& node) HWY_ATTR { result = noise::HWY_NAMESPACE::relief_of(node, numbers, at); },
+                   plan.relief->parts()[index].node);
         return result;
     }
 
@@ -358,8 +355,8 @@ HWY_INLINE Slack inflated(const Slack& slack) { return times(slack, set(1.0f + 0
 // The whole relief at a vector of points, reach a bound of their coordinates.
 template <bool kPlanar>
 HWY_INLINE Enclosure enclose(const ReliefPlan& plan, const WidePoint& x, double reach, const ReliefPoints& points) {
-    Enclosure all = LaneNumbers<kPlanar>::of(plan, plan.relief->parts().size() - 1,
-                                             LaneNumbers<kPlanar>::domain(x, reach), points);
+    Enclosure all =
+        LaneNumbers<kPlanar>::of(plan, plan.relief->parts().size() - 1, LaneNumbers<kPlanar>::domain(x, reach), points);
     all.up = inflated(all.up);
     all.down = inflated(all.down);
     return all;

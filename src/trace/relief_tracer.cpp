@@ -127,8 +127,8 @@ HWY_INLINE void step_relief(const Field& field, const ReliefPlan& plan, Packet& 
     const Wide delta = mul_add(load_wide(packet.delta_slope), s, load_wide(packet.delta0));
     const FloatVec delta_float = to_float(delta), hint = hn::Load(d, packet.hint);
     const ReliefStep found = relief_step<kPlanar>(field, plan, packet, delta_float, counters);
-    const WordVec taken = hn::Add(hn::Load(dw, packet.steps),
-                                  hn::IfThenElseZero(hn::RebindMask(dw, active), hn::Set(dw, 1u)));
+    const WordVec taken =
+        hn::Add(hn::Load(dw, packet.steps), hn::IfThenElseZero(hn::RebindMask(dw, active), hn::Set(dw, 1u)));
     hn::Store(taken, dw, packet.steps);
     counters.steps += hn::CountTrue(d, active);
     const WordVec limit = hn::Load(dw, packet.step_limit);
@@ -242,8 +242,7 @@ void trace_relief(const Field& field, const TracePlan& constants, const ReliefPl
 }
 
 void relief_gradients(const Field& field, const ReliefPlan& plan, std::span<const glm::dvec3> x,
-                      std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient,
-                      TraceCounters& counters) {
+                      std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient, TraceCounters& counters) {
     HWY_DYNAMIC_DISPATCH(ReliefGradients)(field, plan, x, noise_shift, gradient, counters);
 }
 

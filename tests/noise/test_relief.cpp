@@ -101,7 +101,8 @@ TEST_CASE("a curve's value, slope and bends stay within its bounds on any interv
             const double second = (curve.slope(at + h) - curve.slope(at - h)) / (2 * h);
             REQUIRE(second <= curve.bend_up(lo, hi) + 1e-4);
             REQUIRE(-second <= curve.bend_down(lo, hi) + 1e-4 * curve.bend_down(lo, hi) + 1e-4);
-            REQUIRE(curve.slope(at) == doctest::Approx((curve.value(at + h) - curve.value(at - h)) / (2 * h)).epsilon(1e-4));
+            REQUIRE(curve.slope(at) ==
+                    doctest::Approx((curve.value(at + h) - curve.value(at - h)) / (2 * h)).epsilon(1e-4));
             if (curve.bend_down(lo, hi) > 0.1) tightest = std::max(tightest, -second / curve.bend_down(lo, hi));
         }
         MESSAGE("bend down attained to " << tightest);

@@ -91,9 +91,7 @@ inline Judgement judge_composed(const scene::Surface& surface, std::span<const t
         const oracle::Vec p{ray.origin.x, ray.origin.y, ray.origin.z};
         const oracle::Vec d{ray.direction.x, ray.direction.y, ray.direction.z};
         const auto delta = [&](double t) { return ray.delta0 + ray.delta_slope * t; };
-        const auto f = [&](double t) {
-            return field.probe({p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]});
-        };
+        const auto f = [&](double t) { return field.probe({p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]}); };
         const bool hit = hits[i].state == trace::HitState::hit;
         ++total.rays;
         total.hits += hit;

@@ -119,7 +119,8 @@ TEST_CASE("within a beam's free stretch no point is inside a composed relief") {
                 const double s = uniform(random, beam.start, std::min(end.s, beam.limit));
                 const double angle = uniform(random, 0.0, 6.283185307179586);
                 const double r = (beam.radius0 + beam.spread * s) * (j % 2 == 0 ? 1.0 : uniform(random, 0.0, 1.0));
-                const glm::dvec3 x = beam.origin + s * beam.direction + r * (std::cos(angle) * side + std::sin(angle) * other);
+                const glm::dvec3 x =
+                    beam.origin + s * beam.direction + r * (std::cos(angle) * side + std::sin(angle) * other);
                 REQUIRE(field.value(x) > 0.0);
                 ++points;
             }

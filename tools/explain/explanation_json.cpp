@@ -44,9 +44,20 @@ Json recorded_json(const Explanation& explanation) {
 std::string explanation_json(const Explanation& explanation) {
     const scene::Scene& scene = explanation.scene;
     const render::Window& w = explanation.window;
-    Json features = Json::array(), octaves = Json::array(), costs = Json::object();
+    Json features = Json::array(), octaves = Json::array(), relief = Json::array(), costs = Json::object();
     for (const Feature& feature : explanation.plan.features) features.push_back(feature_json(feature));
     for (const OctavePlan& octave : explanation.plan.octaves) octaves.push_back(octave_json(octave));
+    for (const ReliefRow& row : explanation.plan.relief) {
+        const noise::Certificate& c = row.certificate;
+        relief.push_back({{"name", row.name},
+                          {"type", row.type},
+                          {"of", row.of},
+                          {"octaves", row.octaves},
+                          {"low", c.low},
+                          {"high", c.high},
+                          {"slope", c.slope},
+                          {"bend", c.bend}});
+    }
     for (const NamedCost& cost : costs_of(explanation)) {
         costs[cost.name] = {{"predicted", optional(cost.predicted)},
                             {"actual", optional(cost.actual)},
@@ -65,6 +76,7 @@ std::string explanation_json(const Explanation& explanation) {
                        {"threads", explanation.prediction.threads},
                        {"features", std::move(features)},
                        {"octaves", std::move(octaves)},
+                       {"relief", std::move(relief)},
                        {"pilot", pilot_json(explanation.prediction)},
                        {"recorded", recorded_json(explanation)},
                        {"costs", std::move(costs)}};

@@ -72,6 +72,19 @@ std::string octaves_text(const Plan& plan) {
     return text + plan.octaves_note;
 }
 
+std::string relief_text(const Plan& plan) {
+    if (plan.relief.empty()) return {};
+    std::string text = fmt::format("\n{:<16}{:<10}{:<20}{:>9}{:>22}{:>9}{:>11}\n", "relief", "type", "of", "octaves",
+                                   "heights", "slope", "bend");
+    for (const ReliefRow& row : plan.relief) {
+        const noise::Certificate& c = row.certificate;
+        text += fmt::format("  {:<14}{:<10}{:<20}{:>9}{:>22}{:>9.3g}{:>11.3g}\n", row.name, row.type, row.of,
+                            row.octaves, fmt::format("{:.4g} to {:.4g}", c.low, c.high), c.slope, c.bend);
+    }
+    return text +
+           "Bounds of each term everywhere, in surface units: no height, slope or change of slope exceeds them.\n";
+}
+
 std::string value_text(const std::string& name, const std::optional<double>& value) {
     if (!value) return "-";
     if (name.ends_with("bytes")) return fmt::format("{:.0f} MB", *value / 1e6);
@@ -150,7 +163,7 @@ std::vector<NamedCost> costs_of(const Explanation& explanation) {
 std::string explanation_text(const Explanation& explanation) {
     return headline(explanation) + features_text(explanation.plan, true, "needed") +
            features_text(explanation.plan, false, "left out") + octaves_text(explanation.plan) +
-           costs_text(explanation) + basis_text(explanation);
+           relief_text(explanation.plan) + costs_text(explanation) + basis_text(explanation);
 }
 
 }  // namespace strata::tools

@@ -25,6 +25,7 @@ double pixel_angle(const scene::Scene& scene) {
 
 std::vector<OctavePlan> plan_octaves(const scene::Scene& scene) {
     const scene::Surface& surface = scene.surface;
+    if (!surface.relief.empty()) return {};
     const trace::Field field(surface);
     const noise::NoiseBounds& bounds = field.is_planar_noise() ? noise::kBounds2 : noise::kBounds3;
     const double angle = pixel_angle(scene);

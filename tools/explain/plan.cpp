@@ -79,15 +79,18 @@ void add_surface(FeatureList& list, const scene::Scene& scene) {
     const trace::Field field(surface);
     const int octaves = static_cast<int>(field.octaves().size());
     const bool planar = field.is_planar_noise();
-    list.add("2-D noise", planar && octaves > 0,
-             octaves == 0 ? "surface.amplitude is 0"
-             : planar     ? "a terrain is a height field over (x, z)"
-                          : fmt::format("a surface of kind {} needs noise in space", name_of(surface.kind)));
-    list.add("3-D noise", !planar && octaves > 0,
-             octaves == 0 ? "surface.amplitude is 0"
-             : planar     ? "a terrain is a height field: its noise does not depend on y"
-                          : fmt::format("a surface of kind {} has overhangs or is closed", name_of(surface.kind)));
-    if (octaves < surface.octaves) {
+    const bool composed = field.relief() != nullptr, has_noise = composed || octaves > 0;
+    list.add("relief", composed, "terms of [[relief]] stand for the sum of [surface]",
+             "no [[relief]]: the sum of octaves of [surface]");
+    list.add("2-D noise", planar && has_noise,
+             !has_noise ? "surface.amplitude is 0"
+             : planar   ? "a terrain is a height field over (x, z)"
+                        : fmt::format("a surface of kind {} needs noise in space", name_of(surface.kind)));
+    list.add("3-D noise", !planar && has_noise,
+             !has_noise ? "surface.amplitude is 0"
+             : planar   ? "a terrain is a height field: its noise does not depend on y"
+                        : fmt::format("a surface of kind {} has overhangs or is closed", name_of(surface.kind)));
+    if (!composed && octaves < surface.octaves) {
         list.add(
             "finest octaves", false,
             fmt::format("{} of {} are below the last bit of a double", surface.octaves - octaves, surface.octaves));
@@ -101,6 +104,18 @@ void add_surface(FeatureList& list, const scene::Scene& scene) {
     list.add("haze", scene.sky.haze_distance > 0.0, "a hit's colour fades into the sky behind it",
              "sky.haze_distance is 0");
     list.add("material", true, "colour by height and slope: [material]");
+}
+
+std::vector<ReliefRow> relief_rows(const scene::Surface& surface) {
+    const trace::Field field(surface);
+    std::vector<ReliefRow> rows;
+    for (std::size_t i = 0; field.relief() != nullptr && i < surface.relief.size(); ++i) {
+        const noise::ReliefTerm& term = surface.relief[i];
+        const std::string type = std::visit([](const auto& node) { return std::string(node.kType); }, term.node);
+        rows.push_back({term.name, type, fmt::format("{}", fmt::join(term.of, ", ")),
+                        field.relief()->parts()[i].octaves.size(), field.relief()->certificates()[i]});
+    }
+    return rows;
 }
 
 void add_estimator(FeatureList& list, const scene::Scene& scene) {
@@ -136,6 +151,7 @@ Plan make_plan(const scene::Scene& scene, render::Tracer tracer, int passes, con
     add_motion(list, scene);
     if (scene.image == scene::ImageKind::surface) {
         add_surface(list, scene);
+        plan.relief = relief_rows(scene.surface);
         plan.octaves = plan_octaves(scene);
         plan.octaves_note = octaves_note(scene, tracer);
     } else {

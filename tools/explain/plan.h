@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "noise/relief/certificate.h"
+
 #include "src/render/surface_image.h"
 #include "src/scene/scene.h"
 #include "tools/aov.h"
@@ -35,7 +37,15 @@ struct OctavePlan {
     std::vector<OctaveRole> roles;
 };
 
+// A term of a composed relief with its certificate (noise/relief/certificate.h), in surface units.
+struct ReliefRow {
+    std::string name, type, of;
+    std::size_t octaves = 0;  // of its own
+    noise::Certificate certificate;
+};
+
 struct Plan {
+    std::vector<ReliefRow> relief{};
     std::vector<Feature> features;
     std::vector<OctavePlan> octaves;  // none for image-plane patterns
     std::string octaves_note;         // empty for these

@@ -1,4 +1,5 @@
-// Ridged multifractal: crests where noise crosses zero, quiet valleys. With v_k octave k's noise over its largest value,
+// Ridged multifractal: crests where noise crosses zero, quiet valleys. With v_k octave k's noise over its largest
+// value,
 //
 //   s_k = (1 - sqrt(v_k^2 + roundness^2))^2,   w_0 = 1,   w_{k+1} = clip(feedback w_k s_k),
 //   r = amplitude sum over k of gain^k w_k s_k,      0 <= r <= amplitude sum of gain^k,

@@ -1,5 +1,5 @@
-// Another relief read elsewhere: r(x + u(x)), each component of u an fBm of its own, its octaves' noise over its largest
-// value times amplitude gain^k. Lattice lines and straight crests become winding ones. Over 2-D noise u has the
+// Another relief read elsewhere: r(x + u(x)), each component of u an fBm of its own, its octaves' noise over its
+// largest value times amplitude gain^k. Lattice lines and straight crests become winding ones. Over 2-D noise u has the
 // components x and z.
 #ifndef STRATA_NOISE_RELIEF_WARP_H_
 #define STRATA_NOISE_RELIEF_WARP_H_

@@ -87,9 +87,7 @@ class ReliefOracle {
     double read(const std::string& name, const noise::Fbm&, const Vec& p) const {
         return sum(octaves_.at(name).front(), p);
     }
-    double steepest(const std::string& name, const noise::Fbm&) const {
-        return steepness(octaves_.at(name).front());
-    }
+    double steepest(const std::string& name, const noise::Fbm&) const { return steepness(octaves_.at(name).front()); }
 
     double read(const std::string& name, const noise::Ridged& node, const Vec& p) const {
         double total = 0.0, weight = 1.0;
@@ -118,7 +116,8 @@ class ReliefOracle {
     double read(const std::string& name, const noise::Warp&, const Vec& p) const {
         Vec there = p;
         const auto& components = octaves_.at(name);
-        for (std::size_t c = 0; c < components.size(); ++c) there[planar_ ? 2 * c : c] += sum(components[c], p) / peak();
+        for (std::size_t c = 0; c < components.size(); ++c)
+            there[planar_ ? 2 * c : c] += sum(components[c], p) / peak();
         return value_of(terms_.at(name).of.front(), there);
     }
     double steepest(const std::string& name, const noise::Warp&) const {
