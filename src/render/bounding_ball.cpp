@@ -2,20 +2,21 @@
 
 #include <limits>
 
+#include "src/trace/rounding_pad.h"
+
 namespace strata::render {
 
 double bounding_ball(const trace::Field& field) {
-    constexpr double kPad = 1.0 + 1e-9;
     const scene::Surface& surface = field.surface();
     switch (surface.kind) {
         case scene::SurfaceKind::terrain:
         case scene::SurfaceKind::hyperterrain:
             break;
         case scene::SurfaceKind::planet:
-            return (surface.radius + field.amplitude()) * kPad;
+            return (surface.radius + field.amplitude()) * trace::kRoundingPad;
         case scene::SurfaceKind::isosurface:
-            return surface.bound == scene::BoundKind::ball ? surface.bound_size.x * kPad
-                                                           : glm::length(surface.bound_size) * kPad;
+            return surface.bound == scene::BoundKind::ball ? surface.bound_size.x * trace::kRoundingPad
+                                                           : glm::length(surface.bound_size) * trace::kRoundingPad;
     }
     return std::numeric_limits<double>::infinity();
 }

@@ -4,14 +4,16 @@
 #include <cmath>
 #include <vector>
 
+#include "src/trace/rounding_pad.h"
+
 namespace strata::render {
 
 namespace {
 
 using Points = std::vector<glm::dvec3>;
 
-constexpr double kPad = 1.0 + 1e-9;  // far above the rounding of what it is applied to
-constexpr double kSlack = 1e-12;     // and of angles near zero
+// Covers the rounding of an angle near zero, where a factor does not.
+constexpr double kSlack = 1e-12;
 
 // Looking more nearly along `up` (sine), or past it, the camera's right can turn at once.
 constexpr double kLeastSine = 1e-3;
@@ -27,7 +29,7 @@ std::optional<double> greatest_chord(const Points& hull, const glm::dvec3& middl
         if (!(glm::dot(point, axis) > kLeastSine * length)) return std::nullopt;
         chord = std::max(chord, glm::length(point / length - axis));
     }
-    return chord * kPad + kSlack;
+    return chord * trace::kRoundingPad + kSlack;
 }
 
 // Of the camera's right: views across `up` are linear in the view, so their hull is the hull's.
@@ -49,7 +51,7 @@ double change_of_scale(const Points& fovs, double middle_deg) {
     const auto tangent = [](double fov_deg) { return std::tan(glm::radians(0.5 * fov_deg)); };
     double change = 0.0;
     for (const glm::dvec3& fov : fovs) change = std::max(change, std::abs(tangent(fov.x) / tangent(middle_deg) - 1.0));
-    return change * kPad + kSlack;
+    return change * trace::kRoundingPad + kSlack;
 }
 
 }  // namespace
@@ -68,15 +70,15 @@ std::optional<CameraSweep> sweep_camera(const scene::CameraPath& path, const tra
     const glm::dvec2 a = glm::abs(camera.on_plane(cell.x, cell.y));
     const glm::dvec2 b = glm::abs(camera.on_plane(cell.x + cell.side, cell.y + cell.side));
     const glm::dvec2 reach = glm::max(a, b);
-    const double change =
-        (*forward + reach.x * (*right + scale) + reach.y * (*forward + *right + scale)) * (1.0 + scale) * kPad;
+    const double change = (*forward + reach.x * (*right + scale) + reach.y * (*forward + *right + scale)) *
+                          (1.0 + scale) * trace::kRoundingPad;
     if (!(change < 0.5)) return std::nullopt;
     CameraSweep sweep;
-    sweep.angle = std::asin(change) * kPad;
+    sweep.angle = std::asin(change) * trace::kRoundingPad;
     for (const glm::dvec3& position : path.position_hull(cell.time)) {
         sweep.shift = std::max(sweep.shift, glm::distance(position, middle.position));
     }
-    sweep.shift *= kPad;
+    sweep.shift *= trace::kRoundingPad;
     return sweep;
 }
 

@@ -6,6 +6,7 @@
 
 #include "src/render/bounding_ball.h"
 #include "src/render/camera_sweep.h"
+#include "src/trace/rounding_pad.h"
 
 namespace strata::render {
 
@@ -13,9 +14,6 @@ namespace {
 
 // A wider cone is not worth a beam.
 constexpr double kWidest = 0.5;
-
-// Far above the rounding of what it is applied to, far below what matters.
-constexpr double kPad = 1.0 + 1e-9;
 
 double middle_of(const scene::TimeSpan& time) { return 0.5 * (time.first + time.last); }
 
@@ -54,12 +52,12 @@ std::optional<CellBeams::Sweep> CellBeams::sweep(const ScreenCell& cell, const t
     if (camera_moves_) {
         const std::optional<CameraSweep> swept = sweep_camera(path_, camera, cell);
         if (!swept) return std::nullopt;
-        sweep.shift = swept->shift / placement_.scale() * kPad;
+        sweep.shift = swept->shift / placement_.scale() * trace::kRoundingPad;
         sweep.eye_shift = sweep.shift;
         sweep.angle = swept->angle;
     }
     if (spin_rad_per_s_ > 0.0) {
-        const double turn = spin_rad_per_s_ * half_seconds * kPad;
+        const double turn = spin_rad_per_s_ * half_seconds * trace::kRoundingPad;
         const double eye =
             glm::length(placement_.point_to_local(placement_.resting_orientation(), camera.position())) + sweep.shift;
         if (std::isfinite(bounding_ball_)) {
@@ -69,7 +67,7 @@ std::optional<CellBeams::Sweep> CellBeams::sweep(const ScreenCell& cell, const t
             sweep.angle += turn;
         }
     }
-    if (field_.drifts()) sweep.noise = glm::length(surface_.drift) * half_seconds * kPad;
+    if (field_.drifts()) sweep.noise = glm::length(surface_.drift) * half_seconds * trace::kRoundingPad;
     return sweep;
 }
 
@@ -103,7 +101,7 @@ std::optional<CellBeam> CellBeams::around(const ScreenCell& cell) const {
     if (!bounds) return std::nullopt;
     const Sweep& swept = *bounds;
     const auto half_angle = [&] { return std::atan(cone.tangent) + swept.angle; };
-    const double tangent = swept.angle > 0.0 ? std::tan(half_angle()) * kPad : cone.tangent;
+    const double tangent = swept.angle > 0.0 ? std::tan(half_angle()) * trace::kRoundingPad : cone.tangent;
     if (!(tangent <= kWidest && tangent >= 0.0)) return std::nullopt;
 
     CellBeam result;

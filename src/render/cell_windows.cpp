@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/trace/rounding_pad.h"
+
 namespace strata::render {
 
 namespace {
 
-// Speed only, as all constants here but the last two: near the surface a window's error in f is about kNearError of
+// Speed only, as all constants here but the last: near the surface a window's error in f is about kNearError of
 // what f falls by over a tolerance, its slope taken to be no less than kLeastSlope; elsewhere kFarError of f.
 constexpr double kNearError = 0.2;
 constexpr double kLeastSlope = 0.1;
@@ -21,9 +23,6 @@ constexpr double kLeastWidth = 1.2;
 
 // Windows of one cell at most: rays that need more are few, or near no surface.
 constexpr int kMostWindows = 8;
-
-// Covers the rounding of distances along rays.
-constexpr double kSooner = 1.0 - 0x1p-50;
 
 // Of positions: covers the rounding of a centre and of a ray's point.
 constexpr double kPlace = 0x1p-49;
@@ -68,7 +67,8 @@ bool CellWindows::extend(WindowChain& chain, std::vector<trace::Window>& windows
     const trace::WindowPlan::Size size = next_size(chain);
     if (size.octaves == 0) return false;
     // Rays that come from this distance have at least that axis coordinate.
-    const double from = (chain.s - cell.margins.shift) * kSooner, begin = from * cell.margins.cosine * kSooner;
+    const double from = (chain.s - cell.margins.shift) * trace::kSooner,
+                 begin = from * cell.margins.cosine * trace::kSooner;
     const double half = half_length(beam, begin, size.radius);
     if (half <= 0.0) return false;
 
@@ -76,7 +76,7 @@ bool CellWindows::extend(WindowChain& chain, std::vector<trace::Window>& windows
     trace::Window& window = windows.emplace_back();
     window.centre = beam.origin + (begin + half) * beam.direction + beam.noise_shift;
     window.from = from;
-    window.to = (begin + 2.0 * half - cell.margins.shift) * kSooner;
+    window.to = (begin + 2.0 * half - cell.margins.shift) * trace::kSooner;
     window.octaves = size.octaves;
     const glm::dvec3 reach = glm::abs(window.centre);
     window.error = plan_.error(size, std::max({reach.x, reach.y, reach.z}));

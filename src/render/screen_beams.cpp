@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/scene/needs.h"
+#include "src/trace/rounding_pad.h"
 
 namespace strata::render {
 
@@ -14,9 +15,6 @@ constexpr double kRaysALeaf = 6.25;
 
 // Cells are no longer in time than the surface takes to move by this fraction of their side. Speed only.
 constexpr double kBlurASide = 0.5;
-
-// Covers the rounding of a product of lengths.
-constexpr double kShort = 1.0 - 0x1p-50;
 
 double rays_a_pixel(const scene::Sampling& sampling) {
     return sampling.estimator == scene::EstimatorKind::none ? 1.0 : static_cast<double>(sampling.N) * sampling.N;
@@ -73,7 +71,7 @@ void ScreenBeams::split(int level, BeamedSamples& out) const {
             std::optional<CellBeam> cell = around_.around(hierarchy_.cell(code, level));
             if (!cell) cell.emplace();  // with a limit of 0: left at once
             trace::Beam& beam = out.beams.emplace_back(cell->beam);
-            beam.start = std::max(beam.start, node.reached * cell->margins.cosine * kShort);
+            beam.start = std::max(beam.start, node.reached * cell->margins.cosine * trace::kSooner);
             beam.hint = node.hint;
             out.margins.push_back(cell->margins);
             out.children.push_back({i, end, node.reached, node.hint});
@@ -90,7 +88,7 @@ void ScreenBeams::keep(int level, BeamedSamples& out) const {
         bool misses = false;
         if (out.beams[i].limit > 0.0) {
             const trace::BeamEnd& end = out.ends[i];
-            node.reached = std::max(node.reached, (end.s - out.margins[i].shift) * kShort);
+            node.reached = std::max(node.reached, (end.s - out.margins[i].shift) * trace::kSooner);
             node.hint = end.hint;
             misses = end.misses;
         }

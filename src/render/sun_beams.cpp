@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "src/render/bounding_ball.h"
+#include "src/trace/rounding_pad.h"
 
 namespace strata::render {
 
@@ -13,7 +14,6 @@ namespace {
 constexpr int kLevelBits = 2;  // a level's cells are 4 times narrower than their parents
 constexpr int kLevels = 13;    // 0 is the finest
 constexpr int kCodeBits = 2 * kLevelBits * (kLevels - 1);
-constexpr double kPad = 1.0 + 1e-9;  // far above the rounding of the positions' parts
 
 // The finest cells hold about this many rays. Speed only.
 constexpr double kRaysALeaf = 40.0;
@@ -112,7 +112,7 @@ trace::Beam SunBeams::beam(const SunlitCells& cells, std::uint64_t code, int lev
     const double slack = 1e-9 * (std::abs(a) + std::abs(b) + bounding_ball_ + amplitude_);
     const glm::dvec3 foot = a * a_ + b * b_;
     trace::Beam beam;
-    beam.radius0 = std::sqrt(0.5) * side * kPad + slack;
+    beam.radius0 = std::sqrt(0.5) * side * trace::kRoundingPad + slack;
     beam.direction = -to_sun_;
     beam.noise_shift = noise_shift_;
     double depth = 0.0;
