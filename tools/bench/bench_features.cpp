@@ -18,9 +18,9 @@
 
 #include "shaders_cpu/sky.h"
 #include "shaders_cpu/terrain_material.h"
-#include "src/render/make_image.h"
+#include "src/accel/screen_beams.h"
+#include "src/integrate/make_image.h"
 #include "src/render/render.h"
-#include "src/render/screen_beams.h"
 #include "src/scene/builtin.h"
 #include "src/scene/toml_reader.h"
 
@@ -82,7 +82,7 @@ scene::Scene plain(const char* name) {
 }
 
 // Beams, camera rays, first hits, normals, colours: for a surface, a camera and a sun at rest, no shadows and no haze.
-class BareImage final : public render::ImageFunction {
+class BareImage final : public integrate::ImageFunction {
   public:
     explicit BareImage(const scene::Scene& scene)
         : scene_(scene),
@@ -99,13 +99,13 @@ class BareImage final : public render::ImageFunction {
 
     std::size_t batch_samples() const override { return 65536; }
 
-    void evaluate(const render::SampleBatch& samples, std::span<glm::vec3> radiance,
-                  render::Counters& counters) const override {
+    void evaluate(const integrate::SampleBatch& samples, std::span<glm::vec3> radiance,
+                  integrate::Counters& counters) const override {
         constexpr std::size_t kChunk = 4096;
         thread_local Work work;
         trace::TraceCounters traced;
-        beams_.trace(samples, work.beamed, traced);
-        const std::span<const render::BeamedCell> cells = work.beamed.cells;
+        beams_.trace(samples.u, samples.v, samples.t, work.beamed, traced);
+        const std::span<const accel::BeamedCell> cells = work.beamed.cells;
         for (std::size_t begin = 0, end; begin < cells.size(); begin = end) {
             for (end = begin + 1; end < cells.size() && cells[end].last - cells[begin].first <= kChunk;) ++end;
             evaluate_cells(samples, cells.subspan(begin, end - begin), radiance, work, traced);
@@ -116,8 +116,8 @@ class BareImage final : public render::ImageFunction {
 
   private:
     struct Work {
-        render::BeamedSamples beamed;
-        render::WindowChains windows;
+        accel::BeamedSamples beamed;
+        accel::WindowChains windows;
         std::vector<trace::Ray> rays;
         std::vector<trace::Hit> hits, surface_hits;
         std::vector<glm::dvec3> x;
@@ -125,7 +125,7 @@ class BareImage final : public render::ImageFunction {
         std::vector<glm::vec3> gradient;
     };
 
-    void make_rays(const render::SampleBatch& samples, std::span<const render::BeamedCell> cells, Work& work) const {
+    void make_rays(const integrate::SampleBatch& samples, std::span<const accel::BeamedCell> cells, Work& work) const {
         const trace::Ray first =
             placement_.to_local(placement_.resting_orientation(), {.origin = camera_.position(),
                                                                    .direction = camera_.ray(0.0, 0.0).direction,
@@ -145,7 +145,7 @@ class BareImage final : public render::ImageFunction {
         }
     }
 
-    void evaluate_cells(const render::SampleBatch& samples, std::span<const render::BeamedCell> cells,
+    void evaluate_cells(const integrate::SampleBatch& samples, std::span<const accel::BeamedCell> cells,
                         std::span<glm::vec3> radiance, Work& work, trace::TraceCounters& traced) const {
         beams_.open_windows(work.beamed, cells, work.windows, traced);
         make_rays(samples, cells, work);
@@ -183,15 +183,16 @@ class BareImage final : public render::ImageFunction {
     trace::Placement placement_;
     scene::CameraPath path_;
     trace::Camera camera_, eye_;  // eye_ in the surface's axes
-    render::ScreenBeams beams_;
+    accel::ScreenBeams beams_;
 };
 
 struct Side {
-    std::unique_ptr<render::ImageFunction> image;
+    std::unique_ptr<integrate::ImageFunction> image;
     render::Estimator estimator;
 
-    explicit Side(const scene::Scene& scene, std::unique_ptr<render::ImageFunction> other = nullptr)
-        : image(other ? std::move(other) : render::make_image(scene)), estimator(render::estimator_settings(scene)) {}
+    explicit Side(const scene::Scene& scene, std::unique_ptr<integrate::ImageFunction> other = nullptr)
+        : image(other ? std::move(other) : integrate::make_image(scene)),
+          estimator(render::estimator_settings(scene)) {}
 
     render::RenderResult render() const {
         render::RenderOptions options;
@@ -202,7 +203,7 @@ struct Side {
 
 // Same work must mean same counts: else the pair does not compare what it says.
 bool same_counts(const Side& first, const Side& second) {
-    const render::Counters a = first.render().counters, b = second.render().counters;
+    const integrate::Counters a = first.render().counters, b = second.render().counters;
     return a.hits == b.hits && a.noise_evaluations == b.noise_evaluations;
 }
 

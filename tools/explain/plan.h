@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/render/surface_image.h"
+#include "src/integrate/surface_image.h"
 #include "src/scene/scene.h"
 #include "tools/aov.h"
 
@@ -42,6 +42,6 @@ struct Plan {
 };
 
 // Of a valid scene. passes: of N*N samples each, to be averaged.
-Plan make_plan(const scene::Scene& scene, render::Tracer tracer, int passes = 1, const std::vector<Aov>& aovs = {});
+Plan make_plan(const scene::Scene& scene, integrate::Tracer tracer, int passes = 1, const std::vector<Aov>& aovs = {});
 
 }  // namespace strata::tools
