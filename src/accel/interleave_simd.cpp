@@ -72,5 +72,20 @@ void interleave_columns(std::span<const double> u, std::span<const double> v, do
     HWY_DYNAMIC_DISPATCH(Interleave)(u, v, scale, bias, out);
 }
 
+namespace {
+
+std::uint64_t bits_at_even_places(std::uint64_t x) {
+    x &= 0x5555'5555'5555'5555;
+    x = (x | x >> 1) & 0x3333'3333'3333'3333;
+    x = (x | x >> 2) & 0x0f0f'0f0f'0f0f'0f0f;
+    x = (x | x >> 4) & 0x00ff'00ff'00ff'00ff;
+    x = (x | x >> 8) & 0x0000'ffff'0000'ffff;
+    return (x | x >> 16) & 0xffff'ffff;
+}
+
+}  // namespace
+
+Square square_of(std::uint64_t code) { return {bits_at_even_places(code), bits_at_even_places(code >> 1)}; }
+
 }  // namespace strata::accel
 #endif  // HWY_ONCE

@@ -1,4 +1,4 @@
-// Morton codes of points, by the vector.
+// Morton codes: of points by the vector, and back. Whatever is sorted by squares uses these.
 #pragma once
 
 #include <cstdint>
@@ -11,5 +11,12 @@ namespace strata::accel {
 // spans are of a length. The same on every target.
 void interleave_columns(std::span<const double> u, std::span<const double> v, double scale, double bias,
                         std::span<std::uint64_t> out);
+
+struct Square {
+    std::uint64_t column, row;
+};
+
+// The column and the row, of up to 32 bits each, that a Morton code is made of.
+Square square_of(std::uint64_t code);
 
 }  // namespace strata::accel

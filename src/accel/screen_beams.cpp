@@ -56,67 +56,58 @@ ScreenBeams::ScreenBeams(const scene::Scene& scene, const scene::CameraPath& pat
               trace::Camera(path.at(0.0), scene.film).ray(0.5 * scene.film.width, 0.5 * scene.film.height).pixel_angle),
       hierarchy_(hierarchy(scene, around_)) {}
 
-// The cells of a level in every node, with their beams; where there is no beam the parent's end is handed on.
-void ScreenBeams::split(int level, BeamedSamples& out) const {
-    const int shift = hierarchy_.shift(level);
-    const std::vector<std::uint64_t>& codes = out.samples.codes;
-    out.children.clear();
-    out.margins.clear();
-    out.beams.clear();
-    for (const BeamedSamples::Node& node : out.nodes) {
-        for (std::uint32_t i = node.first; i < node.last;) {
-            const std::uint64_t code = codes[i] >> shift;
-            std::uint32_t end = i + 1;
-            while (end < node.last && codes[end] >> shift == code) ++end;
-            std::optional<CellBeam> cell = around_.around(hierarchy_.cell(code, level));
-            if (!cell) cell.emplace();  // with a limit of 0: left at once
-            trace::Beam& beam = out.beams.emplace_back(cell->beam);
-            beam.start = std::max(beam.start, node.reached * cell->margins.cosine * trace::kSooner);
-            beam.hint = node.hint;
-            out.margins.push_back(cell->margins);
-            out.children.push_back({i, end, node.reached, node.hint});
-            i = end;
-        }
-    }
-}
+// Every cell that holds samples is wanted. What a node has reached is a distance from the eye.
+class ScreenBeams::Descent {
+  public:
+    using Frame = CellBeam::Margins;
 
-// Nodes that go on to the next level; the others are done.
-void ScreenBeams::keep(int level, BeamedSamples& out) const {
-    out.nodes.clear();
-    for (std::size_t i = 0; i < out.children.size(); ++i) {
-        BeamedSamples::Node& node = out.children[i];
-        bool misses = false;
-        if (out.beams[i].limit > 0.0) {
-            const trace::BeamEnd& end = out.ends[i];
-            node.reached = std::max(node.reached, (end.s - out.margins[i].shift) * trace::kSooner);
-            node.hint = end.hint;
-            misses = end.misses;
-        }
-        if (level > 0 && !misses) {
-            out.nodes.push_back(node);
-        } else {
-            BeamedCell cell{node.first, node.last, misses, node.reached, node.hint};
-            if (!misses && out.beams[i].limit > 0.0) {
-                cell.leaf = static_cast<std::int32_t>(out.leaves.size());
-                out.leaves.push_back({{out.beams[i], out.margins[i]}, out.ends[i].s, out.ends[i].slope});
-            }
-            out.cells.push_back(cell);
-        }
+    Descent(const ScreenBeams& beams, BeamedSamples& out) : beams_(beams), out_(out) {}
+
+    int levels() const { return beams_.hierarchy_.levels(); }
+    std::span<const std::uint64_t> codes() const { return out_.samples.codes; }
+    int shift(int level) const { return beams_.hierarchy_.shift(level); }
+    bool is_wanted(int /*level*/, std::uint32_t /*first*/, std::uint32_t /*last*/) const { return true; }
+
+    // Where no beam fits around the cell, one with a limit of 0 stands for it, which the tracer leaves at once.
+    trace::Beam place(int level, std::uint64_t code, const CellNode& parent, Frame& margins) const {
+        const CellBeam cell = beams_.around_.around(beams_.hierarchy_.cell(code, level)).value_or(CellBeam{});
+        margins = cell.margins;
+        trace::Beam beam = cell.beam;
+        beam.start = std::max(beam.start, parent.reached * margins.cosine * trace::kSooner);
+        return beam;
     }
-}
+
+    // Cells of the finest level, and those whose rays meet nothing, are done.
+    bool note(int level, CellNode& node, const Frame& margins, const trace::Beam& beam, const trace::BeamEnd& end) {
+        const bool is_beam = beam.limit > 0.0;
+        if (is_beam) {
+            node.reached = std::max(node.reached, (end.s - margins.shift) * trace::kSooner);
+            node.hint = end.hint;
+        }
+        const bool misses = is_beam && end.misses;
+        if (level > 0 && !misses) return true;
+        BeamedCell& cell = out_.cells.emplace_back(BeamedCell{node.first, node.last, misses, node.reached, node.hint});
+        if (is_beam && !misses) {
+            cell.leaf = static_cast<std::int32_t>(out_.leaves.size());
+            out_.leaves.push_back({{beam, margins}, end.s, end.slope});
+        }
+        return false;
+    }
+
+  private:
+    const ScreenBeams& beams_;
+    BeamedSamples& out_;
+};
 
 void ScreenBeams::trace(std::span<const double> u, std::span<const double> v, std::span<const double> t,
                         BeamedSamples& out, trace::TraceCounters& counters) const {
-    out.samples.sort(hierarchy_, u, v, t);
+    out.samples.codes.resize(u.size());
+    hierarchy_.codes(u, v, t, out.samples.codes);
+    out.samples.sort();
     out.cells.clear();
     out.leaves.clear();
-    out.nodes.assign(1, {0, static_cast<std::uint32_t>(u.size()), 0.0, 0.0f});
-    for (int level = hierarchy_.levels() - 1; level >= 0; --level) {
-        split(level, out);
-        out.ends.resize(out.beams.size());
-        tracer_.trace(out.beams, out.ends, counters);
-        keep(level, out);
-    }
+    Descent descent(*this, out);
+    descend(descent, 0.0, tracer_, out.tree, counters);
     // Mostly all are of the finest level, and in order.
     if (!std::ranges::is_sorted(out.cells, {}, &BeamedCell::first))
         std::ranges::sort(out.cells, {}, &BeamedCell::first);

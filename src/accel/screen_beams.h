@@ -1,5 +1,5 @@
-// Up to where the rays through each part of the screen are free of the surface: beams around the cells of the
-// hierarchy, each begun where its parent's ended.
+// Up to where the rays through each part of the screen are free of the surface, by a descent (cell_tree.h) through the
+// cells of screen_cells.h.
 //
 // What a sample gets depends on its own cell alone, never on the other samples.
 #pragma once
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/accel/cell_beam.h"
+#include "src/accel/cell_tree.h"
 #include "src/accel/cell_windows.h"
 #include "src/accel/screen_cells.h"
 #include "src/trace/beam_tracer.h"
@@ -27,18 +28,10 @@ struct BeamedCell {
 
 // Memory is reused from call to call.
 struct BeamedSamples {
-    SortedSamples samples;
+    SortedCodes samples;
     std::vector<BeamedCell> cells;  // in the samples' order
 
-    struct Node {
-        std::uint32_t first, last;
-        double reached;  // its rays are free up to this distance
-        float hint;
-    };
-    std::vector<Node> nodes, children;
-    std::vector<trace::Beam> beams;  // of the children
-    std::vector<CellBeam::Margins> margins;
-    std::vector<trace::BeamEnd> ends;
+    CellTree<CellBeam::Margins> tree;
 
     // The finest cells' beams, where they ended.
     struct Leaf {
@@ -63,8 +56,7 @@ class ScreenBeams {
                       trace::TraceCounters& counters) const;
 
   private:
-    void split(int level, BeamedSamples& out) const;
-    void keep(int level, BeamedSamples& out) const;
+    class Descent;
 
     CellBeams around_;
     trace::BeamTracer tracer_;

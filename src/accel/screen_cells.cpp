@@ -1,8 +1,6 @@
 #include "src/accel/screen_cells.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 
 #include "src/accel/interleave_simd.h"
@@ -19,15 +17,6 @@ constexpr double kBias = 1 << (kAxisBits - 1);
 
 // Covers the rounding of a time's interval.
 constexpr double kTimeSlack = 1e-9;
-
-std::uint64_t gather_bits(std::uint64_t x) {
-    x &= 0x5555'5555'5555'5555;
-    x = (x | x >> 1) & 0x3333'3333'3333'3333;
-    x = (x | x >> 2) & 0x0f0f'0f0f'0f0f'0f0f;
-    x = (x | x >> 4) & 0x00ff'00ff'00ff'00ff;
-    x = (x | x >> 8) & 0x0000'ffff'0000'ffff;
-    return (x | x >> 16) & 0xffff'ffff;
-}
 
 constexpr double power_of_two(int exponent) { return static_cast<double>(std::uint64_t{1} << exponent); }
 
@@ -96,53 +85,14 @@ ScreenCell ScreenHierarchy::cell(std::uint64_t shifted, int level) const {
     const double bias = kBias / power_of_two(kLevelBits * level);
     ScreenCell cell;
     cell.side = side(level);
-    cell.x = (static_cast<double>(gather_bits(square)) - bias) * cell.side;
-    cell.y = (static_cast<double>(gather_bits(square >> 1)) - bias) * cell.side;
+    const Square at = square_of(square);
+    cell.x = (static_cast<double>(at.column) - bias) * cell.side;
+    cell.y = (static_cast<double>(at.row) - bias) * cell.side;
     const double length = interval_ * static_cast<double>(1 << (time_bits_ - time_bits_at(level)));
     const double first = shutter_.first + static_cast<double>(time) * length;
     const double slack = kTimeSlack * (shutter_.last - shutter_.first);
     cell.time = {first - slack, first + length + slack};
     return cell;
-}
-
-// By digits, the least first; each pass keeps the order of equal ones.
-template <class Code>
-void SortedSamples::Keys<Code>::sort(int bits) {
-    constexpr int kDigit = 11;
-    scratch.resize(keys.size());
-    for (int shift = 0; shift < bits; shift += kDigit) {
-        std::array<std::uint32_t, (1u << kDigit) + 1> start{};
-        const auto digit = [&](const Key& key) { return low_bits(key.code >> shift, kDigit); };
-        for (const Key& key : keys) ++start[digit(key) + 1];
-        for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-        for (const Key& key : keys) scratch[start[digit(key)]++] = key;
-        keys.swap(scratch);
-    }
-}
-
-template <class Code>
-void SortedSamples::sort_by(Keys<Code>& sorted, std::uint64_t least, int bits) {
-    sorted.keys.resize(codes.size());
-    for (std::size_t i = 0; i < codes.size(); ++i) {
-        sorted.keys[i] = {static_cast<Code>(codes[i] - least), static_cast<std::uint32_t>(i)};
-    }
-    sorted.sort(bits);
-    for (std::size_t i = 0; i < codes.size(); ++i) {
-        codes[i] = least + sorted.keys[i].code;
-        order[i] = sorted.keys[i].sample;
-    }
-}
-
-void SortedSamples::sort(const ScreenHierarchy& hierarchy, std::span<const double> u, std::span<const double> v,
-                         std::span<const double> t) {
-    codes.resize(u.size());
-    order.resize(u.size());
-    if (codes.empty()) return;
-    hierarchy.codes(u, v, t, codes);
-    const auto [least, most] = std::ranges::minmax(codes);
-    const int bits = static_cast<int>(std::bit_width(most - least));
-    if (bits <= 32) return sort_by(near_, least, bits);
-    sort_by(scattered_, least, bits);
 }
 
 }  // namespace strata::accel

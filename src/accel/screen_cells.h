@@ -1,12 +1,12 @@
 // A fixed hierarchy of screen cells over the frame and the shutter: squares of absolute frame coordinates and, where
-// the scene moves, intervals of time; each level four times finer than the one above. Which cell a sample belongs to
-// depends on the sample alone.
+// the scene moves, intervals of time; each level 2^kLevelBits times finer than the one above. Which cell a sample
+// belongs to depends on the sample alone.
 #pragma once
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "src/accel/cell_tree.h"
 #include "src/scene/camera_path.h"
 
 namespace strata::accel {
@@ -21,7 +21,6 @@ struct ScreenCell {
 
 class ScreenHierarchy {
   public:
-    static constexpr int kLevelBits = 2;      // a level's cells are 2^kLevelBits times narrower than their parents
     static constexpr int kMostTimeBits = 12;  // at most 2^kMostTimeBits intervals
 
     // leaf: side of the finest cells, a power of two, px. shutter: the times of all samples, which time_bits divides
@@ -34,7 +33,7 @@ class ScreenHierarchy {
 
     std::uint64_t code(double u, double v, double t) const;
 
-    // Of many; all of a length.
+    // The codes of many samples; the four spans have equal length.
     void codes(std::span<const double> u, std::span<const double> v, std::span<const double> t,
                std::span<std::uint64_t> out) const;
 
@@ -54,34 +53,6 @@ class ScreenHierarchy {
     int time_bits_;
     scene::TimeSpan shutter_;
     double interval_;  // of time at the finest level, s
-};
-
-// Samples in the order of their codes; those of equal code keep their order.
-struct SortedSamples {
-    std::vector<std::uint64_t> codes;
-    std::vector<std::uint32_t> order;
-
-    void sort(const ScreenHierarchy& hierarchy, std::span<const double> u, std::span<const double> v,
-              std::span<const double> t);
-
-  private:
-    // Codes counted from the least, and whose they are.
-    template <class Code>
-    struct Keys {
-        struct Key {
-            Code code;
-            std::uint32_t sample;
-        };
-        std::vector<Key> keys, scratch;
-
-        void sort(int bits);
-    };
-
-    template <class Code>
-    void sort_by(Keys<Code>& sorted, std::uint64_t least, int bits);
-
-    Keys<std::uint32_t> near_;  // for samples close together
-    Keys<std::uint64_t> scattered_;
 };
 
 }  // namespace strata::accel

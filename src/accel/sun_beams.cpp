@@ -5,15 +5,17 @@
 #include <limits>
 
 #include "src/accel/bounding_ball.h"
+#include "src/accel/interleave_simd.h"
 #include "src/trace/rounding_pad.h"
 
 namespace strata::accel {
 
 namespace {
 
-constexpr int kLevelBits = 2;  // a level's cells are 4 times narrower than their parents
-constexpr int kLevels = 13;    // 0 is the finest
-constexpr int kCodeBits = 2 * kLevelBits * (kLevels - 1);
+constexpr int kLevels = 13;  // 0 is the finest
+constexpr int kAxisBits = kLevelBits * (kLevels - 1);
+constexpr int kCodeBits = 2 * kAxisBits;       // of the code within a coarsest cell
+constexpr double kFineCells = 1 << kAxisBits;  // along a side of a coarsest cell
 
 // The finest cells hold about this many rays. Speed only.
 constexpr double kRaysALeaf = 40.0;
@@ -29,30 +31,13 @@ glm::dvec3 across(const glm::dvec3& direction) {
     return glm::normalize(glm::cross(direction, other));
 }
 
-std::uint64_t interleave(std::uint64_t x) {
-    x = (x | x << 16) & 0x0000'ffff'0000'ffff;
-    x = (x | x << 8) & 0x00ff'00ff'00ff'00ff;
-    x = (x | x << 4) & 0x0f0f'0f0f'0f0f'0f0f;
-    x = (x | x << 2) & 0x3333'3333'3333'3333;
-    return (x | x << 1) & 0x5555'5555'5555'5555;
-}
-
-std::uint64_t every_other(std::uint64_t x) {
-    x &= 0x5555'5555'5555'5555;
-    x = (x | x >> 1) & 0x3333'3333'3333'3333;
-    x = (x | x >> 2) & 0x0f0f'0f0f'0f0f'0f0f;
-    x = (x | x >> 4) & 0x00ff'00ff'00ff'00ff;
-    x = (x | x >> 8) & 0x0000'ffff'0000'ffff;
-    return (x | x >> 16) & 0xffff'ffff;
-}
-
 // The coarsest cells are as wide as the coarsest octave's lattice: wider beams would hardly come down at all.
 double coarsest_side(const trace::Field& field) {
     return field.octaves().empty() ? 1.0 : 1.0 / field.octaves().front().frequency;
 }
 
-std::uint64_t rank_of(std::vector<SunlitCells::Index>& tops, const SunlitCells::Index& top) {
-    const auto same = [&](const SunlitCells::Index& other) { return other.a == top.a && other.b == top.b; };
+std::uint64_t rank_of(std::vector<SunlitCells::Top>& tops, const SunlitCells::Top& top) {
+    const auto same = [&](const SunlitCells::Top& other) { return other.a == top.a && other.b == top.b; };
     const auto found = std::ranges::find_if(tops, same);
     const auto rank = static_cast<std::uint64_t>(found - tops.begin());
     if (found == tops.end()) tops.push_back(top);
@@ -82,33 +67,37 @@ int SunBeams::level_of(double spacing) const {
 
 // By the coarsest cell, in the order of meeting, then by the Morton code in it.
 void SunBeams::sort(std::span<const trace::Ray> rays, std::span<const double> spacing, SunlitCells& cells) const {
-    const double fine_side = std::ldexp(top_side_, -kLevelBits * (kLevels - 1));
-    const double fine_cells = std::ldexp(1.0, kLevelBits * (kLevels - 1));
-    cells.entries.clear();
+    const double fine_side = top_side_ / kFineCells;
+    const std::size_t count = rays.size();
     cells.tops.clear();
-    for (std::size_t i = 0; i < rays.size(); ++i) {
+    cells.a.resize(count);
+    cells.b.resize(count);
+    cells.ranks.resize(count);
+    cells.levels.resize(count);
+    cells.rays.codes.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
         const double a = std::floor(glm::dot(rays[i].origin, a_) / fine_side);
         const double b = std::floor(glm::dot(rays[i].origin, b_) / fine_side);
-        const double top_a = std::floor(a / fine_cells), top_b = std::floor(b / fine_cells);
-        const std::uint64_t rank =
-            rank_of(cells.tops, {static_cast<std::int64_t>(top_a), static_cast<std::int64_t>(top_b)});
-        const auto fine_a = static_cast<std::uint64_t>(a - top_a * fine_cells);
-        const auto fine_b = static_cast<std::uint64_t>(b - top_b * fine_cells);
-        const std::uint64_t code = rank << kCodeBits | interleave(fine_a) | interleave(fine_b) << 1;
-        cells.entries.push_back({code, static_cast<std::uint32_t>(i), level_of(spacing[i])});
+        const double top_a = std::floor(a / kFineCells), top_b = std::floor(b / kFineCells);
+        cells.ranks[i] = rank_of(cells.tops, {static_cast<std::int64_t>(top_a), static_cast<std::int64_t>(top_b)});
+        cells.a[i] = a - top_a * kFineCells - 0.5 * kFineCells;
+        cells.b[i] = b - top_b * kFineCells - 0.5 * kFineCells;
+        cells.levels[i] = level_of(spacing[i]);
     }
-    std::ranges::sort(cells.entries, {}, &SunlitCells::Entry::code);
+    interleave_columns(cells.a, cells.b, 1.0, 0.5 * kFineCells, cells.rays.codes);
+    for (std::size_t i = 0; i < count; ++i) cells.rays.codes[i] |= cells.ranks[i] << kCodeBits;
+    cells.rays.sort();
 }
 
 // Around a cell, from where all is free; top_height is the height towards the sun of the beam's beginning.
 trace::Beam SunBeams::beam(const SunlitCells& cells, std::uint64_t code, int level, double* top_height) const {
     const int bits = kCodeBits - 2 * kLevelBits * level;
-    const SunlitCells::Index& top = cells.tops[code >> bits];
+    const SunlitCells::Top& top = cells.tops[code >> bits];
     const std::uint64_t inner = code & ((std::uint64_t{1} << bits) - 1);
     const double side = std::ldexp(top_side_, kLevelBits * (level - kLevels + 1));
-    const double a = static_cast<double>(top.a) * top_side_ + (static_cast<double>(every_other(inner)) + 0.5) * side;
-    const double b =
-        static_cast<double>(top.b) * top_side_ + (static_cast<double>(every_other(inner >> 1)) + 0.5) * side;
+    const Square at = square_of(inner);
+    const double a = static_cast<double>(top.a) * top_side_ + (static_cast<double>(at.column) + 0.5) * side;
+    const double b = static_cast<double>(top.b) * top_side_ + (static_cast<double>(at.row) + 0.5) * side;
     const double slack = 1e-9 * (std::abs(a) + std::abs(b) + bounding_ball_ + amplitude_);
     const glm::dvec3 foot = a * a_ + b * b_;
     trace::Beam beam;
@@ -132,64 +121,57 @@ trace::Beam SunBeams::beam(const SunlitCells& cells, std::uint64_t code, int lev
     return beam;
 }
 
-void SunBeams::split(int level, SunlitCells& cells) const {
-    const int shift = 2 * kLevelBits * level;
-    cells.children.clear();
-    cells.beams.clear();
-    cells.top_height.clear();
-    for (const SunlitCells::Node& node : cells.nodes) {
-        for (std::uint32_t i = node.first; i < node.last;) {
-            const std::uint64_t code = cells.entries[i].code >> shift;
-            bool is_wanted = false;
-            std::uint32_t end = i;
-            for (; end < node.last && cells.entries[end].code >> shift == code; ++end) {
-                is_wanted |= cells.entries[end].level <= level;
-            }
-            if (is_wanted) {
-                double top_height = 0.0;
-                trace::Beam beam = this->beam(cells, code, level, &top_height);
-                beam.start = std::max(0.0, top_height - node.free_above);
-                beam.hint = node.hint;
-                cells.beams.push_back(beam);
-                cells.top_height.push_back(top_height);
-                cells.children.push_back({i, end, node.free_above, node.hint});
-            }
-            i = end;
-        }
-    }
-}
+// What a node has reached is a height towards the sun, over which its rays are free; it comes down. A beam's frame is
+// the height of its beginning.
+class SunBeams::Descent {
+  public:
+    using Frame = double;
 
-// Rays whose own cells these are have their limits; the others go on to the next level.
-void SunBeams::keep(int level, std::span<trace::Ray> rays, SunlitCells& cells) const {
-    cells.nodes.clear();
-    for (std::size_t i = 0; i < cells.children.size(); ++i) {
-        SunlitCells::Node node = cells.children[i];
-        const trace::BeamEnd& end = cells.ends[i];
-        node.free_above = std::min(node.free_above, cells.top_height[i] - end.s);
-        if (end.misses) node.free_above = -std::numeric_limits<double>::infinity();
-        node.hint = end.hint;
-        for (std::uint32_t k = node.first; k < node.last; ++k) {
-            const SunlitCells::Entry& entry = cells.entries[k];
-            if (entry.level != level && !end.misses) continue;
-            trace::Ray& ray = rays[entry.ray];
-            const double height = glm::dot(ray.origin, to_sun_);
-            const double slack = 1e-12 * (std::abs(height) + std::abs(node.free_above));
-            ray.limit = std::min(ray.limit, std::max(0.0, node.free_above - height + slack));
-        }
-        if (level > 0 && !end.misses) cells.nodes.push_back(node);
+    Descent(const SunBeams& beams, const SunlitCells& cells, std::span<trace::Ray> rays)
+        : beams_(beams), cells_(cells), rays_(rays) {}
+
+    int levels() const { return kLevels; }
+    std::span<const std::uint64_t> codes() const { return cells_.rays.codes; }
+    int shift(int level) const { return 2 * kLevelBits * level; }
+
+    // Cells whose rays all asked for coarser ones are not.
+    bool is_wanted(int level, std::uint32_t first, std::uint32_t last) const {
+        const auto order = std::span(cells_.rays.order).subspan(first, last - first);
+        return std::ranges::any_of(order, [&](std::uint32_t ray) { return cells_.levels[ray] <= level; });
     }
-}
+
+    trace::Beam place(int level, std::uint64_t code, const CellNode& parent, double& top_height) const {
+        trace::Beam beam = beams_.beam(cells_, code, level, &top_height);
+        beam.start = std::max(0.0, top_height - parent.reached);
+        return beam;
+    }
+
+    // The rays that asked for this cell have their limits; of a cell that meets nothing no ray needs following.
+    bool note(int level, CellNode& node, double top_height, const trace::Beam& /*beam*/, const trace::BeamEnd& end) {
+        node.reached = std::min(node.reached, top_height - end.s);
+        node.hint = end.hint;
+        for (const std::uint32_t i : std::span(cells_.rays.order).subspan(node.first, node.last - node.first)) {
+            trace::Ray& ray = rays_[i];
+            if (end.misses) ray.limit = 0.0;
+            if (end.misses || cells_.levels[i] != level) continue;
+            const double height = glm::dot(ray.origin, beams_.to_sun_);
+            const double slack = 1e-12 * (std::abs(height) + std::abs(node.reached));
+            ray.limit = std::min(ray.limit, std::max(0.0, node.reached - height + slack));
+        }
+        return !end.misses;
+    }
+
+  private:
+    const SunBeams& beams_;
+    const SunlitCells& cells_;
+    std::span<trace::Ray> rays_;
+};
 
 void SunBeams::shorten(std::span<trace::Ray> rays, std::span<const double> spacing, SunlitCells& cells,
                        trace::TraceCounters& counters) const {
     sort(rays, spacing, cells);
-    cells.nodes.assign(1, {0, static_cast<std::uint32_t>(rays.size()), std::numeric_limits<double>::infinity(), 0.0f});
-    for (int level = kLevels - 1; level >= 0 && !cells.nodes.empty(); --level) {
-        split(level, cells);
-        cells.ends.resize(cells.beams.size());
-        tracer_.trace(cells.beams, cells.ends, counters);
-        keep(level, rays, cells);
-    }
+    Descent descent(*this, cells, rays);
+    descend(descent, std::numeric_limits<double>::infinity(), tracer_, cells.tree, counters);
 }
 
 }  // namespace strata::accel

@@ -1,7 +1,8 @@
 // Shadow rays are parallel: beams come down from the sun, around square cells of the plane across its direction, and
 // each shadow ray needs following only up to where its cell's beam stopped.
 //
-// The cells belong to a fixed hierarchy in the surface's coordinates, and a ray's cell depends on that ray alone.
+// The cells belong to a fixed hierarchy in the surface's coordinates, which a descent (cell_tree.h) goes through; a
+// ray's cell depends on that ray alone.
 #pragma once
 
 #include <cstdint>
@@ -9,31 +10,22 @@
 #include <span>
 #include <vector>
 
+#include "src/accel/cell_tree.h"
 #include "src/trace/beam_tracer.h"
 
 namespace strata::accel {
 
 // Memory is reused from call to call.
 struct SunlitCells {
-    struct Entry {
-        std::uint64_t code;
-        std::uint32_t ray;
-        int level;
-    };
-    struct Node {
-        std::uint32_t first, last;  // entries
-        double free_above;          // height towards the sun
-        float hint;
-    };
-    struct Index {
+    struct Top {
         std::int64_t a, b;
     };
-    std::vector<Entry> entries;
-    std::vector<Index> tops;  // coarsest cells met
-    std::vector<Node> nodes, children;
-    std::vector<trace::Beam> beams;
-    std::vector<double> top_height;
-    std::vector<trace::BeamEnd> ends;
+    std::vector<Top> tops;             // the coarsest cells met
+    std::vector<double> a, b;          // of each ray's finest cell, counted from the middle of its coarsest
+    std::vector<std::uint64_t> ranks;  // of each ray's coarsest cell in `tops`
+    std::vector<int> levels;           // of the cell that each ray asks for
+    SortedCodes rays;
+    CellTree<double> tree;
 };
 
 class SunBeams {
@@ -50,10 +42,10 @@ class SunBeams {
                  trace::TraceCounters& counters) const;
 
   private:
+    class Descent;
+
     int level_of(double spacing) const;
     void sort(std::span<const trace::Ray> rays, std::span<const double> spacing, SunlitCells& cells) const;
-    void split(int level, SunlitCells& cells) const;
-    void keep(int level, std::span<trace::Ray> rays, SunlitCells& cells) const;
     trace::Beam beam(const SunlitCells& cells, std::uint64_t code, int level, double* top_height) const;
 
     trace::BeamTracer tracer_;

@@ -67,3 +67,13 @@ TEST_CASE(
         CHECK(different == 0);
     });
 }
+
+TEST_CASE("the column and the row of a code are what it was interleaved from") {
+    Random random(92);
+    for (int trial = 0; trial < 1000; ++trial) {
+        const std::uint64_t column = random() >> (32 + random() % 32), row = random() >> (32 + random() % 32);
+        const accel::Square found = accel::square_of(interleaved(column, row));
+        REQUIRE(found.column == column);
+        REQUIRE(found.row == row);
+    }
+}

@@ -169,7 +169,7 @@ TEST_CASE(
 
 TEST_CASE("sorting puts codes in order, keeps the order of equal ones and loses none, for any number of samples") {
     Random random(83);
-    SortedSamples sorted;  // its memory is used again
+    SortedCodes sorted;  // its memory is used again
     for (const Case& c : cases()) {
         const ScreenHierarchy hierarchy = c.hierarchy();
         const std::size_t count = random() % 3 == 0 ? random() % 3 : 1 + random() % 700;
@@ -185,7 +185,9 @@ TEST_CASE("sorting puts codes in order, keeps the order of equal ones and loses 
         std::vector<std::uint32_t> expected(count);
         std::iota(expected.begin(), expected.end(), 0u);
         std::ranges::stable_sort(expected, {}, [&](std::uint32_t i) { return codes[i]; });
-        sorted.sort(hierarchy, u, v, t);
+        sorted.codes.resize(count);
+        hierarchy.codes(u, v, t, sorted.codes);
+        sorted.sort();
         REQUIRE(sorted.order == expected);
         for (std::size_t i = 0; i < count; ++i) REQUIRE(sorted.codes[i] == codes[expected[i]]);
     }
