@@ -80,14 +80,14 @@ std::vector<int> parse_integers(const char* option, const std::string& text, int
     return values;
 }
 
-std::vector<render::Tracer> parse_tracers(const std::string& text, const scene::Scene& scene) {
-    std::vector<render::Tracer> tracers;
+std::vector<integrate::Tracer> parse_tracers(const std::string& text, const scene::Scene& scene) {
+    std::vector<integrate::Tracer> tracers;
     for (const std::string& word : words("--tracers", text)) {
         if (word != "fast" && word != "reference")
             throw UsageError(fmt::format("--tracers: {}: allowed: fast, reference", scene::excerpt(word)));
         add_once(tracers, parse_tracer(word));
     }
-    if (scene.image != scene::ImageKind::surface && tracers != std::vector{render::Tracer::fast}) {
+    if (scene.image != scene::ImageKind::surface && tracers != std::vector{integrate::Tracer::fast}) {
         throw UsageError(fmt::format("--tracers {}: image '{}' has no surface to trace; allowed: fast",
                                      scene::excerpt(text), scene::name_of(scene.image)));
     }

@@ -58,7 +58,7 @@ int explain_command(const ExplainRequest& request) {
     Explanation explanation;
     explanation.window = window_of(request.crop, loaded);
     explanation.tracer = !request.tracer.empty() ? request.tracer : loaded.tracer.value_or("fast");
-    const render::Tracer tracer = parse_tracer(explanation.tracer);
+    const integrate::Tracer tracer = parse_tracer(explanation.tracer);
     explanation.simd_target = noise::simd_target();
     explanation.name = loaded.name;
     explanation.scene = loaded.scene;

@@ -120,7 +120,7 @@ void probe_field(const SceneArgument& argument) {
 }
 
 // ray: `world` in the surface's coordinates.
-void print_ray(const render::SurfaceImage& image, const trace::Ray& world, const trace::Ray& ray, double t) {
+void print_ray(const integrate::SurfaceImage& image, const trace::Ray& world, const trace::Ray& ray, double t) {
     const glm::dmat3 orientation = orientation_at(image.placement(), t);
     trace::Hit hit;
     trace::TraceCounters counters;
@@ -157,7 +157,7 @@ glm::dvec3 near_unit_length(const glm::dvec3& direction) {
             std::scalbn(direction.z, -exponent)};
 }
 
-void probe_pixel_ray(const RayRequest& request, const scene::Scene& scene, const render::SurfaceImage& image) {
+void probe_pixel_ray(const RayRequest& request, const scene::Scene& scene, const integrate::SurfaceImage& image) {
     const glm::ivec2 pixel = parse_pixel(request.pixel, scene.film);
     double u = 0.0, v = 0.0, t = mid_shutter(scene);
     if (!request.sample.empty()) {
@@ -177,7 +177,7 @@ void probe_pixel_ray(const RayRequest& request, const scene::Scene& scene, const
 void probe_ray(const RayRequest& request) {
     if (!request.simd.empty()) use_simd_target(request.simd);
     const scene::Scene scene = surface_scene(request.scene, "ray");
-    const render::SurfaceImage image(scene, parse_tracer(request.tracer));
+    const integrate::SurfaceImage image(scene, parse_tracer(request.tracer));
     if (!request.pixel.empty()) return probe_pixel_ray(request, scene, image);
     if (!request.sample.empty()) throw UsageError("--sample: allowed: with --pixel only");
     each_line(6, 7, "ox oy oz dx dy dz [t], a direction other than zero", [&](const std::vector<double>& in) {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <new>
 
+#include "src/integrate/make_image.h"
 #include "src/render/cancel.h"
-#include "src/render/make_image.h"
 #include "src/render/progress_printer.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
@@ -62,7 +62,7 @@ using TellEnd = std::function<void(const render::ProgressiveResult&)>;
 // One pass goes into its files while it is rendered.
 Rendered render_streamed(const Job& job, const render::RenderOptions& options, render::CancelToken& cancel,
                          const TellEnd& tell_end) {
-    const auto image = render::make_image(job.loaded.scene, parse_tracer(job.tracer));
+    const auto image = integrate::make_image(job.loaded.scene, parse_tracer(job.tracer));
     const render::Estimator estimator(render::estimator_settings(job.loaded.scene));
     PictureOutputs outputs(job, job.metadata);
     Rendered rendered;
@@ -81,7 +81,7 @@ Rendered render_streamed(const Job& job, const render::RenderOptions& options, r
 
 // The mean of several passes is known at their end.
 Rendered render_in_passes(const Job& job, const render::RenderOptions& options, const TellEnd& tell_end) {
-    const auto image = render::make_image(job.loaded.scene, parse_tracer(job.tracer));
+    const auto image = integrate::make_image(job.loaded.scene, parse_tracer(job.tracer));
     Rendered rendered;
     render::ProgressiveResult& result = rendered.result;
     result = render::render_progressively(*image, render::estimator_settings(job.loaded.scene), job.window, job.goal,

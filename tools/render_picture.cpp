@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "src/render/make_image.h"
+#include "src/integrate/make_image.h"
 
 namespace strata::tools {
 
@@ -19,9 +19,9 @@ image::Picture to_picture(render::Film film, const scene::Film& frame) {
 
 }  // namespace
 
-RenderedPicture render_picture(const scene::Scene& scene, const render::Window& window, render::Tracer tracer,
+RenderedPicture render_picture(const scene::Scene& scene, const render::Window& window, integrate::Tracer tracer,
                                const render::RenderOptions& options) {
-    const auto image_function = render::make_image(scene, tracer);
+    const auto image_function = integrate::make_image(scene, tracer);
     const render::Estimator estimator(render::estimator_settings(scene));
     RenderedPicture rendered;
     rendered.result = render::render(*image_function, estimator, window, options);
@@ -30,9 +30,9 @@ RenderedPicture render_picture(const scene::Scene& scene, const render::Window& 
     return rendered;
 }
 
-ProgressivePicture render_picture(const scene::Scene& scene, const render::Window& window, render::Tracer tracer,
+ProgressivePicture render_picture(const scene::Scene& scene, const render::Window& window, integrate::Tracer tracer,
                                   const render::PassGoal& goal, const render::RenderOptions& options) {
-    const auto image_function = render::make_image(scene, tracer);
+    const auto image_function = integrate::make_image(scene, tracer);
     ProgressivePicture rendered;
     rendered.result =
         render::render_progressively(*image_function, render::estimator_settings(scene), window, goal, options);

@@ -4,9 +4,9 @@
 #include <cstddef>
 
 #include "src/image/picture.h"
+#include "src/integrate/surface_image.h"
 #include "src/render/progressive.h"
 #include "src/render/render.h"
-#include "src/render/surface_image.h"
 #include "src/scene/scene.h"
 
 namespace strata::tools {
@@ -18,7 +18,7 @@ struct RenderedPicture {
 };
 
 // Renders the pixels `window` of a valid scene's frame.
-RenderedPicture render_picture(const scene::Scene& scene, const render::Window& window, render::Tracer tracer,
+RenderedPicture render_picture(const scene::Scene& scene, const render::Window& window, integrate::Tracer tracer,
                                const render::RenderOptions& options);
 
 struct ProgressivePicture {
@@ -28,7 +28,7 @@ struct ProgressivePicture {
 };
 
 // The same in passes until the goal is reached.
-ProgressivePicture render_picture(const scene::Scene& scene, const render::Window& window, render::Tracer tracer,
+ProgressivePicture render_picture(const scene::Scene& scene, const render::Window& window, integrate::Tracer tracer,
                                   const render::PassGoal& goal, const render::RenderOptions& options);
 
 }  // namespace strata::tools

@@ -95,18 +95,18 @@ nlohmann::ordered_json passes_json(const PassStatistics& passes) {
 // What shares refer to: phases are measured by the clock, which runs on while others have the processor.
 double thread_seconds(const RunStatistics& statistics) {
     double phases_s = 0.0;
-    for (const render::PhaseCost& cost : statistics.counters.phases) phases_s += cost.seconds;
+    for (const integrate::PhaseCost& cost : statistics.counters.phases) phases_s += cost.seconds;
     return std::max({statistics.cpu_seconds, phases_s, 1e-9});
 }
 
 // The image function's phases, and `samples and film` for what it does not account for.
-std::vector<std::pair<std::string, render::PhaseCost>> phases(const RunStatistics& statistics) {
-    std::vector<std::pair<std::string, render::PhaseCost>> phases;
+std::vector<std::pair<std::string, integrate::PhaseCost>> phases(const RunStatistics& statistics) {
+    std::vector<std::pair<std::string, integrate::PhaseCost>> phases;
     double rest_s = thread_seconds(statistics);
-    for (std::size_t i = 0; i < render::kPhases; ++i) {
-        const render::PhaseCost& cost = statistics.counters.phases[i];
+    for (std::size_t i = 0; i < integrate::kPhases; ++i) {
+        const integrate::PhaseCost& cost = statistics.counters.phases[i];
         if (cost.seconds == 0.0) continue;
-        phases.emplace_back(render::name_of(static_cast<render::Phase>(i)), cost);
+        phases.emplace_back(integrate::name_of(static_cast<integrate::Phase>(i)), cost);
         rest_s -= cost.seconds;
     }
     phases.push_back({"samples and film", {.seconds = std::max(rest_s, 0.0)}});
@@ -130,9 +130,9 @@ nlohmann::ordered_json phases_json(const RunStatistics& statistics) {
 }
 
 // A share of what all octaves at every point looked at would have been.
-std::string left_out_summary(const render::Counters& counters) {
+std::string left_out_summary(const integrate::Counters& counters) {
     trace::LeftOut left;
-    for (const render::PhaseCost& cost : counters.phases) left += cost.left_out;
+    for (const integrate::PhaseCost& cost : counters.phases) left += cost.left_out;
     const double all = static_cast<double>(left.total() + counters.noise_evaluations) * 0.01;
     if (left.total() == 0) return {};
     return fmt::format(
@@ -176,7 +176,7 @@ RunStatistics collect(const render::RenderResult& result, const std::string& sce
 }
 
 std::string summary(const RunStatistics& statistics) {
-    const render::Counters& c = statistics.counters;
+    const integrate::Counters& c = statistics.counters;
     const double rays = static_cast<double>(c.rays), shadow_rays = static_cast<double>(c.shadow_rays);
     std::string text = fmt::format("time     {} ({:.2f} s on {} thread{}, {:.2f} s of CPU, {})\n",
                                    render::duration_text(statistics.seconds), statistics.seconds, statistics.threads,
@@ -195,7 +195,7 @@ std::string summary(const RunStatistics& statistics) {
 }
 
 void write_statistics(const std::filesystem::path& path, const RunStatistics& statistics) {
-    const render::Counters& c = statistics.counters;
+    const integrate::Counters& c = statistics.counters;
     nlohmann::ordered_json json = {{"scene", statistics.scene},
                                    {"version", STRATA_VERSION},
                                    {"simd_target", statistics.simd_target},

@@ -22,7 +22,7 @@ struct PassStatistics {
 };
 
 struct RunStatistics {
-    render::Counters counters;
+    integrate::Counters counters;
     double seconds = 0.0;  // tracing, shading, filtering, and pictures written meanwhile; not set-up
     double cpu_seconds = 0.0;
     int threads = 0;

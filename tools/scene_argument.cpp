@@ -263,9 +263,9 @@ glm::ivec2 parse_pixel(const std::string& text, const scene::Film& film) {
     return {(*p)[0], (*p)[1]};
 }
 
-render::Tracer parse_tracer(const std::string& name) {
-    if (name == "fast") return render::Tracer::fast;
-    if (name == "reference") return render::Tracer::reference;
+integrate::Tracer parse_tracer(const std::string& name) {
+    if (name == "fast") return integrate::Tracer::fast;
+    if (name == "reference") return integrate::Tracer::reference;
     throw UsageError(fmt::format("--tracer {}: allowed: fast, reference", scene::excerpt(name)));
 }
 

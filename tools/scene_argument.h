@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "src/integrate/surface_image.h"
 #include "src/render/film.h"
-#include "src/render/surface_image.h"
 #include "src/scene/scene.h"
 #include "tools/command_line.h"
 
@@ -65,7 +65,7 @@ render::Window window_of(const std::string& crop, const LoadedScene& loaded);
 glm::ivec2 parse_pixel(const std::string& text, const scene::Film& film);
 
 // "fast" or "reference". Throws UsageError.
-render::Tracer parse_tracer(const std::string& name);
+integrate::Tracer parse_tracer(const std::string& name);
 
 // Pins the SIMD target. Throws UsageError for one that is not here.
 void use_simd_target(const std::string& name);

@@ -24,8 +24,8 @@
 #include <vector>
 
 #include "src/filter/bspline_table.h"
+#include "src/integrate/image_function.h"
 #include "src/render/estimator_weights.h"
-#include "src/render/image_function.h"
 #include "src/sample/pattern.h"
 #include "src/sample/shutter.h"
 #include "src/scene/scene.h"
@@ -56,7 +56,7 @@ struct SampleSet {
     std::vector<float> scratch_q, scratch_x;    // folded probabilities and what became of them
     std::vector<std::uint32_t> scratch_permutation;
 
-    SampleBatch batch(std::size_t first, std::size_t count) const {
+    integrate::SampleBatch batch(std::size_t first, std::size_t count) const {
         return {std::span(u).subspan(first, count), std::span(v).subspan(first, count),
                 std::span(t).subspan(first, count)};
     }

@@ -15,7 +15,7 @@ namespace {
 
 class ProgressiveRender {
   public:
-    ProgressiveRender(const ImageFunction& image, const EstimatorSettings& settings, const Window& window,
+    ProgressiveRender(const integrate::ImageFunction& image, const EstimatorSettings& settings, const Window& window,
                       const PassGoal& goal, const RenderOptions& options)
         : image_(image), settings_(settings), window_(window), goal_(goal), options_(options) {}
 
@@ -32,7 +32,7 @@ class ProgressiveRender {
     bool cancel_requested() const { return options_.cancel != nullptr && options_.cancel->requested(); }
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
-    const ImageFunction& image_;
+    const integrate::ImageFunction& image_;
     const EstimatorSettings& settings_;
     const Window& window_;
     const PassGoal& goal_;
@@ -148,7 +148,7 @@ bool passes_differ(scene::EstimatorKind kind) {
            kind != scene::EstimatorKind::uniform;
 }
 
-ProgressiveResult render_progressively(const ImageFunction& image, const EstimatorSettings& settings,
+ProgressiveResult render_progressively(const integrate::ImageFunction& image, const EstimatorSettings& settings,
                                        const Window& window, const PassGoal& goal, const RenderOptions& options) {
     if (goal.passes < 1 || goal.passes > kMostPasses) throw std::invalid_argument("passes are 1 to 1000000");
     if (goal.passes > 1 && !passes_differ(settings.kind)) {

@@ -42,7 +42,7 @@ bool passes_differ(scene::EstimatorKind kind);
 
 // Throws std::invalid_argument for what render() refuses, and for more than one pass where passes do not differ.
 // on_progress tells of the whole: of the predicted passes, or of the time limit where that comes first.
-ProgressiveResult render_progressively(const ImageFunction& image, const EstimatorSettings& settings,
+ProgressiveResult render_progressively(const integrate::ImageFunction& image, const EstimatorSettings& settings,
                                        const Window& window, const PassGoal& goal, const RenderOptions& options = {});
 
 }  // namespace strata::render

@@ -18,7 +18,7 @@ Window cells_of(const Window& window, const Estimator& estimator) {
     return {window.x0 - reach, window.y0 - reach, window.x1 + reach, window.y1 + reach};
 }
 
-RenderResult render(const ImageFunction& image, const Estimator& estimator, const Window& window,
+RenderResult render(const integrate::ImageFunction& image, const Estimator& estimator, const Window& window,
                     const RenderOptions& options) {
     Film film;
     RenderResult result = render_strips(image, estimator, window, options, kWholeFilmStrip, [&](const Film& strip) {
@@ -29,7 +29,7 @@ RenderResult render(const ImageFunction& image, const Estimator& estimator, cons
     return result;
 }
 
-RenderResult render_strips(const ImageFunction& image, const Estimator& estimator, const Window& window,
+RenderResult render_strips(const integrate::ImageFunction& image, const Estimator& estimator, const Window& window,
                            const RenderOptions& options, int strip_rows, StripSink sink) {
     if (window.width() <= 0 || window.height() <= 0) throw std::invalid_argument("the window to render is empty");
     if (options.tile < 1) throw std::invalid_argument("a tile's side is at least 1");

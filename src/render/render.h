@@ -1,10 +1,10 @@
 // From an image function to a film: in parallel, and the same bits for any number of threads, tile size and window.
 #pragma once
 
+#include "src/integrate/image_function.h"
 #include "src/render/cancel.h"
 #include "src/render/estimator.h"
 #include "src/render/film.h"
-#include "src/render/image_function.h"
 #include "src/render/progress.h"
 #include "src/render/strip_film.h"
 
@@ -22,7 +22,7 @@ struct RenderResult {
     Film film;  // empty where strips were given away
     std::int64_t finished_pixels = 0;
     std::size_t most_film_bytes = 0;  // of pixels held at once, those of `film` not counted
-    Counters counters;
+    integrate::Counters counters;
     int threads = 0;         // used
     double seconds = 0;      // by the clock
     double cpu_seconds = 0;  // of all threads: sampling, evaluating, filtering
@@ -31,13 +31,13 @@ struct RenderResult {
 
 // Renders pixels [x0,x1) x [y0,y1) of the frame; the frame itself has no part in it, and the window may be anywhere.
 // Throws std::invalid_argument for an empty window or a tile below 1.
-RenderResult render(const ImageFunction& image, const Estimator& estimator, const Window& window,
+RenderResult render(const integrate::ImageFunction& image, const Estimator& estimator, const Window& window,
                     const RenderOptions& options = {});
 
 // The same pixels, given away in strips of `strip_rows` >= 1 rows while the render goes on: of the picture only a few
 // strips are held at any time. The sink is called from any thread and given the whole window, of a cancelled render
 // too. What it throws is thrown again after the render, which goes on without calling it: to stop, request cancelling.
-RenderResult render_strips(const ImageFunction& image, const Estimator& estimator, const Window& window,
+RenderResult render_strips(const integrate::ImageFunction& image, const Estimator& estimator, const Window& window,
                            const RenderOptions& options, int strip_rows, StripSink sink);
 
 }  // namespace strata::render

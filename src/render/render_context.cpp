@@ -6,7 +6,7 @@
 
 namespace strata::render {
 
-RenderContext::RenderContext(const ImageFunction& image_function, const Estimator& pixel_estimator,
+RenderContext::RenderContext(const integrate::ImageFunction& image_function, const Estimator& pixel_estimator,
                              const RenderOptions& render_options, std::int64_t total_work)
     : image(image_function),
       estimator(pixel_estimator),
@@ -30,9 +30,9 @@ bool RenderContext::evaluate(Worker& worker, std::span<glm::vec3> radiance) cons
     for (std::size_t first = 0; first < count; first += batch) {
         if (cancelled()) return false;
         const std::size_t size = std::min(batch, count - first);
-        const SampleBatch part = worker.samples.batch(first, size);
+        const integrate::SampleBatch part = worker.samples.batch(first, size);
         if (options.with_costs) {
-            const std::span<SampleCost> costs = std::span(worker.costs).subspan(first, size);
+            const std::span<integrate::SampleCost> costs = std::span(worker.costs).subspan(first, size);
             image.evaluate_with_costs(part, radiance.subspan(first, size), costs, worker.counters);
         } else {
             image.evaluate(part, radiance.subspan(first, size), worker.counters);

@@ -16,14 +16,14 @@ struct alignas(64) Worker {
     SampleSet samples;
     std::vector<glm::ivec2> owners;  // pixels or cells of `samples`
     std::vector<glm::vec3> radiance;
-    std::vector<SampleCost> costs;  // empty unless asked for
-    Counters counters;
+    std::vector<integrate::SampleCost> costs;  // empty unless asked for
+    integrate::Counters counters;
     double cpu_seconds = 0;
 };
 
 class RenderContext {
   public:
-    RenderContext(const ImageFunction& image_function, const Estimator& pixel_estimator,
+    RenderContext(const integrate::ImageFunction& image_function, const Estimator& pixel_estimator,
                   const RenderOptions& render_options, std::int64_t total_work);
 
     // Calls body(worker, index) for every index of [0,count), on all threads.
@@ -45,7 +45,7 @@ class RenderContext {
     // Sums up what the workers did.
     void finish(RenderResult& result) const;
 
-    const ImageFunction& image;
+    const integrate::ImageFunction& image;
     const Estimator& estimator;
     const RenderOptions& options;
     ProgressMeter progress;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "src/trace/rounding_pad.h"
+
 namespace strata::trace {
 
 namespace {
@@ -35,12 +37,12 @@ Camera::Camera(const scene::Camera& camera, const scene::Film& film)
 // The rays end at c + e on the plane at unit depth, c the square's centre and |e| <= r across the view: the tangent of
 // their angle to c is |c x e| / (c.c + c.e), at most |c| r / (c.c - |c across| r).
 CameraCone Camera::cone(double u, double v, double side) const {
-    constexpr double kPad = 1.0 + 1e-9;  // far above the rounding of the directions
     const glm::dvec3 centre = toward(u + 0.5 * side, v + 0.5 * side);
     const double squared = glm::dot(centre, centre), length = std::sqrt(squared);
-    const double reach = std::sqrt(0.5) * side * pixel_ * kPad;
-    const double ahead = squared - std::sqrt(std::max(0.0, squared - 1.0)) * reach * kPad;
-    const double tangent = ahead > 0.0 ? length * reach / ahead * kPad : std::numeric_limits<double>::infinity();
+    const double reach = std::sqrt(0.5) * side * pixel_ * kRoundingPad;
+    const double ahead = squared - std::sqrt(std::max(0.0, squared - 1.0)) * reach * kRoundingPad;
+    const double tangent =
+        ahead > 0.0 ? length * reach / ahead * kRoundingPad : std::numeric_limits<double>::infinity();
     return {centre / length, tangent};
 }
 

@@ -12,7 +12,7 @@ namespace strata::golden {
 namespace {
 
 render::RenderResult render_golden(const GoldenScene& golden, const scene::Scene& scene, const Cut& cut) {
-    const auto image = render::make_image(scene, golden.tracer);
+    const auto image = integrate::make_image(scene, golden.tracer);
     const render::EstimatorSettings settings = render::estimator_settings(scene);
     const render::Window frame{0, 0, scene.film.width, scene.film.height};
     const render::Window window = golden.crop.value_or(frame);
@@ -44,7 +44,7 @@ Record record_of(const render::RenderResult& result, const image::Picture& pictu
         record.digests.emplace_back("steps_aov", digest_of_costs(result.film, 0));
         record.digests.emplace_back("evals_aov", digest_of_costs(result.film, 1));
     }
-    const render::Counters& c = result.counters;
+    const integrate::Counters& c = result.counters;
     record.counts = {{"total.rays", c.rays},
                      {"total.hits", c.hits},
                      {"total.shadow_rays", c.shadow_rays},
@@ -52,9 +52,9 @@ Record record_of(const render::RenderResult& result, const image::Picture& pictu
                      {"total.evaluations", c.noise_evaluations},
                      {"total.steps", c.steps},
                      {"total.executed_lanes", c.executed_lanes}};
-    for (std::size_t i = 0; i < render::kPhases; ++i) {
-        const render::PhaseCost& cost = c.phases[i];
-        const std::string phase = phase_key(static_cast<render::Phase>(i));
+    for (std::size_t i = 0; i < integrate::kPhases; ++i) {
+        const integrate::PhaseCost& cost = c.phases[i];
+        const std::string phase = phase_key(static_cast<integrate::Phase>(i));
         record.counts.insert(record.counts.end(), {{phase + ".evaluations", cost.noise_evaluations},
                                                    {phase + ".steps", cost.steps},
                                                    {phase + ".too_fine", cost.left_out.too_fine},
@@ -66,8 +66,8 @@ Record record_of(const render::RenderResult& result, const image::Picture& pictu
 
 }  // namespace
 
-std::string phase_key(render::Phase phase) {
-    std::string key = render::name_of(phase);
+std::string phase_key(integrate::Phase phase) {
+    std::string key = integrate::name_of(phase);
     std::replace(key.begin(), key.end(), ' ', '_');
     return key;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "src/image/picture.h"
-#include "src/render/image_function.h"
+#include "src/integrate/image_function.h"
 #include "tests/golden/scenes.h"
 
 namespace strata::golden {
@@ -32,7 +32,7 @@ inline constexpr Cut kPinnedCut{1, 16};
 inline constexpr Cut kOtherCut{3, 7};
 
 // The line of a phase's counts: "sun_beams".
-std::string phase_key(render::Phase phase);
+std::string phase_key(integrate::Phase phase);
 
 std::string pixels_digest(const image::Picture& picture);
 

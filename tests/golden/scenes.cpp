@@ -69,7 +69,7 @@ std::vector<GoldenScene> grounds() {
         {.name = "terrain_night", .keys = kTerrain + Keys{"sun.direction=[0.4,-0.2,1]", "sampling.tolerance=1"}},
         {.name = "terrain_reference",
          .keys = kTerrain + Keys{"surface.octaves=4", "sampling.N=1", "sky.haze_distance=0"},
-         .tracer = render::Tracer::reference},
+         .tracer = integrate::Tracer::reference},
         {.name = "hyperterrain", .keys = kHyperterrain + kStratified},
         {.name = "hyperterrain_1_octave", .keys = kHyperterrain + kOneOctave},
         {.name = "hyperterrain_16_octaves", .keys = kHyperterrain + kSixteenOctaves},

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "src/integrate/make_image.h"
 #include "src/render/film.h"
-#include "src/render/make_image.h"
 #include "src/scene/scene.h"
 
 namespace strata::golden {
@@ -17,7 +17,7 @@ struct GoldenScene {
     int passes = 1;                        // of N x N samples
     std::optional<render::Window> crop{};  // half-open; nothing: the whole frame
     bool with_costs = false;               // steps and evaluations of each pixel as well
-    render::Tracer tracer = render::Tracer::fast;
+    integrate::Tracer tracer = integrate::Tracer::fast;
 };
 
 // Their names differ and name files.

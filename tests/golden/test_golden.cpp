@@ -54,10 +54,10 @@ TEST_CASE("every kind of image, surface, bound, camera path and estimator has a 
 
 TEST_CASE("golden scenes have names of their own and every phase of a render works in one of them") {
     std::set<std::string> names, idle;
-    for (std::size_t i = 0; i < render::kPhases; ++i) {
+    for (std::size_t i = 0; i < integrate::kPhases; ++i) {
         // Shading evaluates no noise.
-        if (static_cast<render::Phase>(i) == render::Phase::shading) continue;
-        idle.insert(phase_key(static_cast<render::Phase>(i)) + ".evaluations");
+        if (static_cast<integrate::Phase>(i) == integrate::Phase::shading) continue;
+        idle.insert(phase_key(static_cast<integrate::Phase>(i)) + ".evaluations");
     }
     for (const GoldenScene& golden : golden_scenes()) {
         CHECK(names.insert(golden.name).second);

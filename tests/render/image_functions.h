@@ -7,18 +7,19 @@
 #include <numbers>
 #include <utility>
 
-#include "src/render/image_function.h"
+#include "src/integrate/image_function.h"
 #include "src/scene/scene.h"
 
 namespace strata::render::testing {
 
 // Any function of (u, v, t); counts a hit a sample, so that counters can be checked.
 template <typename Function>
-class Formula : public ImageFunction {
+class Formula : public integrate::ImageFunction {
   public:
     explicit Formula(Function function) : function_(std::move(function)) {}
 
-    void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const override {
+    void evaluate(const integrate::SampleBatch& samples, std::span<glm::vec3> radiance,
+                  integrate::Counters& counters) const override {
         counters.hits += samples.u.size();
         for (std::size_t i = 0; i < samples.u.size(); ++i) {
             radiance[i] = function_(samples.u[i], samples.v[i], samples.t[i]);

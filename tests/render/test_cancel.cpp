@@ -13,6 +13,7 @@
 #include "tests/render/image_functions.h"
 
 using namespace strata;
+using namespace strata::integrate;
 using namespace strata::render;
 using namespace strata::render::testing;
 using scene::EstimatorKind;

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "src/integrate/surface_image.h"
 #include "src/render/render.h"
-#include "src/render/surface_image.h"
 
 using namespace strata;
+using namespace strata::integrate;
 using namespace strata::render;
 using scene::EstimatorKind;
 using scene::SurfaceKind;

@@ -4,10 +4,11 @@
 #include <cstring>
 #include <vector>
 
-#include "src/render/make_image.h"
+#include "src/integrate/make_image.h"
 #include "src/render/render.h"
 
 using namespace strata;
+using namespace strata::integrate;
 using namespace strata::render;
 using scene::SurfaceKind;
 

@@ -11,6 +11,7 @@
 #include "src/render/render.h"
 
 using namespace strata;
+using namespace strata::integrate;
 using namespace strata::render;
 
 namespace {

@@ -1,6 +1,6 @@
 // The picture of a surface: what it counts, what time does to it, and that it goes along with whatever carries surface,
 // camera and sun together.
-#include "src/render/surface_image.h"
+#include "src/integrate/surface_image.h"
 
 #include <doctest/doctest.h>
 
@@ -10,10 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "src/render/make_image.h"
+#include "src/integrate/make_image.h"
 #include "src/render/render.h"
 
 using namespace strata;
+using namespace strata::integrate;
 using namespace strata::render;
 using scene::SurfaceKind;
 
@@ -230,12 +231,12 @@ TEST_CASE("a ray given up at the step limit is counted and drawn in its own colo
     scene.film = {.width = 8, .height = 8};
     const std::vector<double> u = {4.0}, v = {5.0}, t = {0.0};
     std::vector<glm::vec3> radiance(1);
-    render::Counters counters;
-    render::SurfaceImage(scene, render::Tracer::fast, 2).evaluate({u, v, t}, radiance, counters);
+    integrate::Counters counters;
+    integrate::SurfaceImage(scene, integrate::Tracer::fast, 2).evaluate({u, v, t}, radiance, counters);
     CHECK(counters.unresolved_rays == 1);
-    CHECK(radiance[0] == render::kUnresolvedRadiance);
+    CHECK(radiance[0] == integrate::kUnresolvedRadiance);
     counters = {};
-    render::SurfaceImage(scene, render::Tracer::fast).evaluate({u, v, t}, radiance, counters);
+    integrate::SurfaceImage(scene, integrate::Tracer::fast).evaluate({u, v, t}, radiance, counters);
     CHECK(counters.unresolved_rays == 0);
-    CHECK(radiance[0] != render::kUnresolvedRadiance);
+    CHECK(radiance[0] != integrate::kUnresolvedRadiance);
 }

@@ -6,10 +6,11 @@
 #include <random>
 #include <vector>
 
+#include "src/integrate/surface_image.h"
 #include "src/render/render.h"
-#include "src/render/surface_image.h"
 
 using namespace strata;
+using namespace strata::integrate;
 using namespace strata::render;
 using scene::EstimatorKind;
 using scene::SurfaceKind;

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "src/render/make_image.h"
+#include "src/integrate/make_image.h"
 #include "src/render/render.h"
 #include "src/scene/validate.h"
 
 using namespace strata;
+using namespace strata::integrate;
 using namespace strata::render;
 using scene::Scene;
 using scene::SurfaceKind;

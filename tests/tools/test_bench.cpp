@@ -140,7 +140,7 @@ TEST_CASE("a mark changes with the scene, the pixels, the tracer and the threads
     other.subset = blocks_of(960, 540, 64, 6, 1);
     marks.insert(other.mark());
     other = what;
-    other.tracer = render::Tracer::reference;
+    other.tracer = integrate::Tracer::reference;
     marks.insert(other.mark());
     other = what;
     other.threads = 2;
@@ -316,7 +316,7 @@ TEST_CASE("every round of a case does the same work, whatever the time") {
     const render::CancelToken cancel;
     Measurement m{.what = what};
     REQUIRE(measure_round(m, cancel));
-    const render::Counters first = m.counters;
+    const integrate::Counters first = m.counters;
     REQUIRE(measure_round(m, cancel));
     CHECK(m.cpu_s.size() == 2);
     CHECK(first.rays == static_cast<std::uint64_t>(what.subset.pixels()) * 4);

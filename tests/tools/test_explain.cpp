@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "src/integrate/make_image.h"
 #include "src/render/estimator.h"
-#include "src/render/make_image.h"
 #include "src/render/render.h"
 #include "src/scene/builtin.h"
 #include "src/scene/toml_reader.h"
@@ -32,8 +32,8 @@ scene::Scene small_builtin(const scene::BuiltinScene& builtin) {
 
 render::Window whole(const scene::Scene& scene) { return {0, 0, scene.film.width, scene.film.height}; }
 
-render::Counters count(const scene::Scene& scene, const render::Window& window, render::Tracer tracer) {
-    const auto image = render::make_image(scene, tracer);
+integrate::Counters count(const scene::Scene& scene, const render::Window& window, integrate::Tracer tracer) {
+    const auto image = integrate::make_image(scene, tracer);
     return render::render(*image, render::Estimator(render::estimator_settings(scene)), window).counters;
 }
 
@@ -52,10 +52,10 @@ struct Worst {
     }
 };
 
-Worst worst_prediction(const scene::Scene& scene, const render::Window& window, render::Tracer tracer) {
+Worst worst_prediction(const scene::Scene& scene, const render::Window& window, integrate::Tracer tracer) {
     const Prediction prediction =
         predict(scene, window, {.tracer = tracer, .threads = 1, .passes = 1, .with_pilot = true});
-    const render::Counters actual = count(scene, window, tracer);
+    const integrate::Counters actual = count(scene, window, tracer);
     CHECK(prediction.costs.rays == actual.rays);
     Worst worst;
     worst.compare("shadow rays", prediction.costs.shadow_rays, actual.shadow_rays);
@@ -78,10 +78,10 @@ Explanation explain(const scene::Scene& scene, bool with_pilot) {
     explanation.scene = scene;
     explanation.window = whole(scene);
     explanation.tracer = "fast";
-    explanation.plan = make_plan(scene, render::Tracer::fast);
+    explanation.plan = make_plan(scene, integrate::Tracer::fast);
     explanation.prediction =
         predict(scene, explanation.window,
-                {.tracer = render::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = with_pilot});
+                {.tracer = integrate::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = with_pilot});
     return explanation;
 }
 
@@ -90,7 +90,7 @@ Explanation explain(const scene::Scene& scene, bool with_pilot) {
 TEST_CASE("counts are predicted within a factor of 1.5 on every built-in scene") {
     for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
         const scene::Scene scene = small_builtin(builtin);
-        const Worst worst = worst_prediction(scene, whole(scene), render::Tracer::fast);
+        const Worst worst = worst_prediction(scene, whole(scene), integrate::Tracer::fast);
         MESSAGE(builtin.name << ": off by " << worst.factor << " at most (" << worst.name << "; allowed 1.5)");
         CHECK(worst.factor < 1.5);
     }
@@ -101,7 +101,7 @@ TEST_CASE("counts are predicted within a factor of 1.5 where many samples of a p
     scene.film = {.width = 256, .height = 144};
     for (const int N : {1, 4, 10}) {
         scene.sampling.N = N;
-        const Worst worst = worst_prediction(scene, whole(scene), render::Tracer::fast);
+        const Worst worst = worst_prediction(scene, whole(scene), integrate::Tracer::fast);
         MESSAGE("N = " << N << ": off by " << worst.factor << " (" << worst.name << ")");
         CHECK(worst.factor < 1.5);
     }
@@ -113,19 +113,19 @@ TEST_CASE("counts are predicted within a factor of 1.5 for every estimator, for 
     for (int kind = 0; kind < 9; ++kind) {
         scene.sampling.estimator = static_cast<scene::EstimatorKind>(kind);
         scene.sampling.m = 1 + kind;
-        const Worst worst = worst_prediction(scene, whole(scene), render::Tracer::fast);
+        const Worst worst = worst_prediction(scene, whole(scene), integrate::Tracer::fast);
         MESSAGE("estimator " << kind << ": off by " << worst.factor << " (" << worst.name << ")");
         CHECK(worst.factor < 1.5);
     }
     scene.sampling.N = 5;
-    CHECK(worst_prediction(scene, {10, 40, 70, 60}, render::Tracer::fast).factor < 1.5);
+    CHECK(worst_prediction(scene, {10, 40, 70, 60}, integrate::Tracer::fast).factor < 1.5);
     scene.sampling = {.N = 2};
     scene.film = {.width = 64, .height = 36};
-    CHECK(worst_prediction(scene, whole(scene), render::Tracer::reference).factor < 1.5);
+    CHECK(worst_prediction(scene, whole(scene), integrate::Tracer::reference).factor < 1.5);
 }
 
 TEST_CASE("a pilot takes a hundredth of the rays, no fewer than its least and no more than its most") {
-    using render::Tracer;
+    using integrate::Tracer;
     CHECK(pilot_rays(1, Tracer::fast) == 1);
     CHECK(pilot_rays(kLeastPilotRays, Tracer::fast) == kLeastPilotRays);
     CHECK(pilot_rays(10 * kLeastPilotRays, Tracer::fast) == kLeastPilotRays);
@@ -134,7 +134,7 @@ TEST_CASE("a pilot takes a hundredth of the rays, no fewer than its least and no
     CHECK(pilot_rays(std::uint64_t{1} << 44, Tracer::reference) == kMostReferenceRays);
     // The rays that are cast are not more.
     scene::Scene scene = small_builtin(*scene::find_builtin("zoneplate"));
-    const auto image = render::make_image(scene);
+    const auto image = integrate::make_image(scene);
     for (const int N : {1, 2, 3, 7, 64}) {
         for (const int side : {1, 2, 50, 300}) {
             scene.sampling.N = N;
@@ -151,10 +151,10 @@ TEST_CASE("a pilot takes a hundredth of the rays, no fewer than its least and no
 TEST_CASE("predicted counts are the same in every run") {
     const scene::Scene scene = small_builtin(*scene::find_builtin("isosurface"));
     const Costs a =
-        predict(scene, whole(scene), {.tracer = render::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = true})
+        predict(scene, whole(scene), {.tracer = integrate::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = true})
             .costs;
     const Costs b =
-        predict(scene, whole(scene), {.tracer = render::Tracer::fast, .threads = 8, .passes = 1, .with_pilot = true})
+        predict(scene, whole(scene), {.tracer = integrate::Tracer::fast, .threads = 8, .passes = 1, .with_pilot = true})
             .costs;
     CHECK(a.noise_evaluations == b.noise_evaluations);
     CHECK(a.shadow_rays == b.shadow_rays);
@@ -164,19 +164,21 @@ TEST_CASE("predicted counts are the same in every run") {
 TEST_CASE("without a pilot only what is certain is told") {
     scene::Scene scene = small_builtin(*scene::find_builtin("terrain"));
     scene.sampling.estimator = scene::EstimatorKind::stratified;
-    const Costs costs =
-        predict(scene, whole(scene), {.tracer = render::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = false})
-            .costs;
+    const Costs costs = predict(scene, whole(scene),
+                                {.tracer = integrate::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = false})
+                            .costs;
     CHECK(costs.rays == 128 * 72 * 4);
     CHECK(!costs.shadow_rays);
     CHECK(!costs.noise_evaluations);
     CHECK(!costs.seconds);
     CHECK(costs.peak_memory_bytes);
     scene.sun.shadows = false;
-    CHECK(predict(scene, whole(scene), {.tracer = render::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = false})
+    CHECK(predict(scene, whole(scene),
+                  {.tracer = integrate::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = false})
               .costs.shadow_rays == 0.0);
     scene.image = scene::ImageKind::checker;
-    CHECK(predict(scene, whole(scene), {.tracer = render::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = false})
+    CHECK(predict(scene, whole(scene),
+                  {.tracer = integrate::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = false})
               .costs.noise_evaluations == 0.0);
 }
 
@@ -196,8 +198,8 @@ TEST_CASE("the plan names what is left out, and the counts agree") {
         if (coin()) scene.sampling.m = 40;
         if (coin()) scene.surface.amplitude = 0.0;
         scene.sampling.estimator = static_cast<scene::EstimatorKind>(random() % 9);
-        const Plan plan = make_plan(scene, render::Tracer::fast);
-        const render::Counters counters = count(scene, whole(scene), render::Tracer::fast);
+        const Plan plan = make_plan(scene, integrate::Tracer::fast);
+        const integrate::Counters counters = count(scene, whole(scene), integrate::Tracer::fast);
         const render::Estimator estimator(render::estimator_settings(scene));
         CHECK(feature(plan, "shadow rays").needed == (counters.shadow_rays > 0));
         CHECK((feature(plan, "2-D noise").needed || feature(plan, "3-D noise").needed) ==
@@ -216,7 +218,7 @@ TEST_CASE("octaves halve as the scene says, and those that do nothing are told s
     scene.surface.scale = 3.0;
     scene.surface.octaves = 32;
     scene.surface.lacunarity = 1.0;
-    const std::vector<OctavePlan> octaves = make_plan(scene, render::Tracer::fast).octaves;
+    const std::vector<OctavePlan> octaves = make_plan(scene, integrate::Tracer::fast).octaves;
     const trace::Field field(scene.surface);
     REQUIRE(octaves.size() == 32);
     std::size_t live = 0;
@@ -232,7 +234,7 @@ TEST_CASE("octaves halve as the scene says, and those that do nothing are told s
     CHECK(live == field.octaves().size());
     CHECK(live == 32);  // 4^-31 = 2^-62 still counts
     scene.surface.gain = 0.1;
-    CHECK(make_plan(scene, render::Tracer::fast).octaves.back().roles.front().role == "nothing");
+    CHECK(make_plan(scene, integrate::Tracer::fast).octaves.back().roles.front().role == "nothing");
     // A pixel at the frame's centre spans 2 tan(fov/2) / width.
     const double angle = 2.0 * std::tan(0.5 * scene.camera.fov_deg * 3.14159265358979 / 180.0) / scene.film.width;
     CHECK(octaves.front().pixel_wide_at == doctest::Approx(15.0 / angle).epsilon(0.01));

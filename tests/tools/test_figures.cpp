@@ -65,7 +65,8 @@ struct Harmonic {
 // The spokes' first harmonic around the wheel, between hub and rim: a Fourier sum over pixel centres.
 Harmonic spoke_harmonic(const scene::Scene& scene) {
     const int side = scene.film.width;
-    const image::Picture picture = tools::render_picture(scene, {0, 0, side, side}, render::Tracer::fast, {}).picture;
+    const image::Picture picture =
+        tools::render_picture(scene, {0, 0, side, side}, integrate::Tracer::fast, {}).picture;
     std::complex<double> sum = 0;
     int count = 0;
     for (int y = 0; y < side; ++y) {

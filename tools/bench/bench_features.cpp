@@ -2,8 +2,7 @@
 // of a pair take turns, so that a shared machine slows both; `ratio` is the median of the turns' ratios, second over
 // first, `low` and `high` the quartiles, `first_ns` and `second_ns` the least nanoseconds a ray.
 //
-//   bare/...      the renderer, for a scene without motion, shadows and haze, over a loop written out here that has
-//                 never heard of them
+//   bare/...      the renderer, for a scene without motion, shadows and haze, over a loop of the stages that this needs
 //   unused/...    a scene that names the feature where it does nothing, over one that does not name it
 //   used/...      the feature at work, over the same scene without: what leaving it out saves
 #include <benchmark/benchmark.h>
@@ -11,16 +10,17 @@
 #include <algorithm>
 #include <ctime>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "shaders_cpu/sky.h"
-#include "shaders_cpu/terrain_material.h"
-#include "src/render/make_image.h"
+#include "src/integrate/light.h"
+#include "src/integrate/make_image.h"
+#include "src/integrate/place.h"
+#include "src/integrate/resolve.h"
+#include "src/integrate/surface_integrator.h"
+#include "src/integrate/trace_rays.h"
 #include "src/render/render.h"
-#include "src/render/screen_beams.h"
 #include "src/scene/builtin.h"
 #include "src/scene/toml_reader.h"
 
@@ -81,117 +81,40 @@ scene::Scene plain(const char* name) {
     return scene;
 }
 
-// Beams, camera rays, first hits, normals, colours: for a surface, a camera and a sun at rest, no shadows and no haze.
-class BareImage final : public render::ImageFunction {
+// Only the stages that a picture without shadows, haze and costs needs.
+class BareImage final : public integrate::ImageFunction {
   public:
-    explicit BareImage(const scene::Scene& scene)
-        : scene_(scene),
-          shader_(scene.material, scene.sun, scene.sky),
-          field_(scene.surface),
-          fast_(field_),
-          placement_(scene.surface),
-          path_(scene.camera),
-          camera_(scene.camera, scene.film),
-          eye_(camera_.turned(placement_.resting_orientation())),
-          beams_(scene_, path_, placement_, field_) {}
-    BareImage(const BareImage&) = delete;
-    BareImage& operator=(const BareImage&) = delete;
+    explicit BareImage(const scene::Scene& scene) : setup_(scene, integrate::Tracer::fast, trace::kStepLimit) {}
 
     std::size_t batch_samples() const override { return 65536; }
 
-    void evaluate(const render::SampleBatch& samples, std::span<glm::vec3> radiance,
-                  render::Counters& counters) const override {
-        constexpr std::size_t kChunk = 4096;
-        thread_local Work work;
-        trace::TraceCounters traced;
-        beams_.trace(samples, work.beamed, traced);
-        const std::span<const render::BeamedCell> cells = work.beamed.cells;
-        for (std::size_t begin = 0, end; begin < cells.size(); begin = end) {
-            for (end = begin + 1; end < cells.size() && cells[end].last - cells[begin].first <= kChunk;) ++end;
-            evaluate_cells(samples, cells.subspan(begin, end - begin), radiance, work, traced);
-            counters.hits += work.x.size();
+    void evaluate(const integrate::SampleBatch& samples, std::span<glm::vec3> radiance,
+                  integrate::Counters& counters) const override {
+        thread_local integrate::SurfaceWork work;
+        integrate::SurfaceChunk& chunk = work.chunk;
+        follow_beams(setup_, samples, work.batch, counters);
+        while (next_chunk(work.batch, chunk)) {
+            place_rays(setup_, samples, chunk, counters);
+            cull_rays(setup_, work.batch, chunk, counters);
+            trace_rays(setup_, chunk, counters);
+            resolve_hits(setup_, chunk, counters);
+            clear_shadows(chunk);
+            shade(setup_, chunk, counters);
+            put_back(chunk, radiance, {}, counters);
         }
-        counters.noise_evaluations += traced.noise_evaluations;
     }
 
   private:
-    struct Work {
-        render::BeamedSamples beamed;
-        render::WindowChains windows;
-        std::vector<trace::Ray> rays;
-        std::vector<trace::Hit> hits, surface_hits;
-        std::vector<glm::dvec3> x;
-        std::vector<std::size_t> owner;
-        std::vector<glm::vec3> gradient;
-    };
-
-    void make_rays(const render::SampleBatch& samples, std::span<const render::BeamedCell> cells, Work& work) const {
-        const trace::Ray first =
-            placement_.to_local(placement_.resting_orientation(), {.origin = camera_.position(),
-                                                                   .direction = camera_.ray(0.0, 0.0).direction,
-                                                                   .noise_shift = {},
-                                                                   .limit = scene_.camera.far});
-        work.rays.clear();
-        for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-            for (std::size_t i = cells[cell].first; i < cells[cell].last; ++i) {
-                const std::size_t sample = work.beamed.samples.order[i];
-                const trace::CameraRay seen = eye_.ray(samples.u[sample], samples.v[sample]);
-                trace::Ray& ray = work.rays.emplace_back(first);
-                trace::Placement::aim(ray, seen.direction, scene_.sampling.tolerance * seen.pixel_angle);
-                ray.start = cells[cell].misses ? std::numeric_limits<double>::infinity() : cells[cell].start;
-                ray.hint = cells[cell].hint;
-                ray.window = work.windows.first(cell);
-            }
-        }
-    }
-
-    void evaluate_cells(const render::SampleBatch& samples, std::span<const render::BeamedCell> cells,
-                        std::span<glm::vec3> radiance, Work& work, trace::TraceCounters& traced) const {
-        beams_.open_windows(work.beamed, cells, work.windows, traced);
-        make_rays(samples, cells, work);
-        work.hits.resize(work.rays.size());
-        fast_.trace(work.rays, work.hits, traced);
-        work.surface_hits.clear();
-        work.x.clear();
-        work.owner.clear();
-        for (std::size_t i = 0; i < work.rays.size(); ++i) {
-            const trace::Ray& ray = work.rays[i];
-            const std::size_t sample = work.beamed.samples.order[cells.front().first + i];
-            if (work.hits[i].state == trace::HitState::miss) {
-                radiance[sample] = shaders::sky_radiance(scene_.sky, ray.direction);
-            } else {
-                work.x.push_back(ray.origin + work.hits[i].s * ray.direction);
-                work.surface_hits.push_back(work.hits[i]);
-                work.owner.push_back(sample);
-            }
-        }
-        work.gradient.resize(work.x.size());
-        fast_.gradients(work.surface_hits, work.x, {}, work.gradient, traced);
-        const glm::dvec3 sun = trace::Placement::direction_to_local(placement_.resting_orientation(),
-                                                                    glm::normalize(scene_.sun.direction));
-        for (std::size_t i = 0; i < work.x.size(); ++i) {
-            const glm::dvec3 normal(glm::normalize(work.gradient[i]));
-            radiance[work.owner[i]] = shader_.radiance(
-                {.height = work.x[i].y, .up_dot_normal = normal.y, .n_dot_sun = glm::dot(normal, sun)});
-        }
-    }
-
-    scene::Scene scene_;
-    shaders::TerrainShader shader_;
-    trace::Field field_;
-    trace::FastTracer fast_;
-    trace::Placement placement_;
-    scene::CameraPath path_;
-    trace::Camera camera_, eye_;  // eye_ in the surface's axes
-    render::ScreenBeams beams_;
+    integrate::SurfaceSetup setup_;
 };
 
 struct Side {
-    std::unique_ptr<render::ImageFunction> image;
+    std::unique_ptr<integrate::ImageFunction> image;
     render::Estimator estimator;
 
-    explicit Side(const scene::Scene& scene, std::unique_ptr<render::ImageFunction> other = nullptr)
-        : image(other ? std::move(other) : render::make_image(scene)), estimator(render::estimator_settings(scene)) {}
+    explicit Side(const scene::Scene& scene, std::unique_ptr<integrate::ImageFunction> other = nullptr)
+        : image(other ? std::move(other) : integrate::make_image(scene)),
+          estimator(render::estimator_settings(scene)) {}
 
     render::RenderResult render() const {
         render::RenderOptions options;
@@ -202,7 +125,7 @@ struct Side {
 
 // Same work must mean same counts: else the pair does not compare what it says.
 bool same_counts(const Side& first, const Side& second) {
-    const render::Counters a = first.render().counters, b = second.render().counters;
+    const integrate::Counters a = first.render().counters, b = second.render().counters;
     return a.hits == b.hits && a.noise_evaluations == b.noise_evaluations;
 }
 

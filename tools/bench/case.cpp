@@ -9,13 +9,13 @@ namespace strata::tools::bench {
 
 namespace {
 
-const char* tracer_word(render::Tracer tracer) { return tracer == render::Tracer::fast ? "fast" : "reference"; }
+const char* tracer_word(integrate::Tracer tracer) { return tracer == integrate::Tracer::fast ? "fast" : "reference"; }
 
 }  // namespace
 
 std::string Case::id() const {
     std::string text = fmt::format("{} {}x{} N={}", scene_name, scene.film.width, scene.film.height, scene.sampling.N);
-    if (tracer == render::Tracer::reference) text += " reference";
+    if (tracer == integrate::Tracer::reference) text += " reference";
     if (threads != 1) text += fmt::format(" threads={}", threads);
     return text;
 }

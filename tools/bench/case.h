@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/render/surface_image.h"
+#include "src/integrate/surface_image.h"
 #include "src/scene/scene.h"
 #include "tools/bench/subset.h"
 
@@ -13,7 +13,7 @@ struct Case {
     std::string scene_name;  // of the variant: "hyperterrain, 2-D noise"
     scene::Scene scene;
     Subset subset;
-    render::Tracer tracer = render::Tracer::fast;
+    integrate::Tracer tracer = integrate::Tracer::fast;
     int threads = 1;
 
     // What tells it apart: "hyperterrain 1920x1080 N=10", with what is not usual after it.

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <stdexcept>
 
-#include "src/render/make_image.h"
+#include "src/integrate/make_image.h"
 #include "src/render/render.h"
 #include "tools/converge/statistics.h"
 
@@ -14,7 +14,7 @@ namespace strata::tools::bench {
 
 namespace {
 
-bool same_work(const render::Counters& a, const render::Counters& b) {
+bool same_work(const integrate::Counters& a, const integrate::Counters& b) {
     return a.rays == b.rays && a.shadow_rays == b.shadow_rays && a.hits == b.hits &&
            a.noise_evaluations == b.noise_evaluations && a.steps == b.steps;
 }
@@ -32,10 +32,10 @@ double Measurement::ns_an_evaluation(Pick pick) const {
 
 struct CaseRound::State {
     const Case& what;
-    std::unique_ptr<render::ImageFunction> image = render::make_image(what.scene, what.tracer);
+    std::unique_ptr<integrate::ImageFunction> image = integrate::make_image(what.scene, what.tracer);
     render::Estimator estimator{render::estimator_settings(what.scene)};
     std::size_t next = 0;
-    render::Counters counters{};
+    integrate::Counters counters{};
     double cpu_s = 0, wall_s = 0;
     std::vector<Phase> phases{};
 };

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/render/image_function.h"
+#include "src/integrate/image_function.h"
 #include "tools/bench/case.h"
 #include "tools/bench/phases.h"
 
@@ -19,7 +19,7 @@ double pick_of(const std::vector<double>& values, Pick pick);
 
 struct Measurement {
     Case what;
-    render::Counters counters{};
+    integrate::Counters counters{};
     std::vector<double> cpu_s{};   // of all threads
     std::vector<double> wall_s{};  // by the clock
     std::vector<Phase> phases{};   // of the fastest round

@@ -7,10 +7,10 @@ namespace strata::tools::bench {
 std::vector<Phase> phases_of(const render::RenderResult& result) {
     std::vector<Phase> phases;
     double rest_s = result.seconds * result.threads;  // by the clock, as the phases' own
-    for (std::size_t i = 0; i < render::kPhases; ++i) {
-        const render::PhaseCost& cost = result.counters.phases[i];
+    for (std::size_t i = 0; i < integrate::kPhases; ++i) {
+        const integrate::PhaseCost& cost = result.counters.phases[i];
         phases.push_back(
-            {render::name_of(static_cast<render::Phase>(i)), cost.seconds, cost.steps, cost.noise_evaluations});
+            {integrate::name_of(static_cast<integrate::Phase>(i)), cost.seconds, cost.steps, cost.noise_evaluations});
         rest_s -= cost.seconds;
     }
     phases.push_back({"samples and film", std::max(rest_s, 0.0), 0, 0});

@@ -96,7 +96,7 @@ std::string Planner::add_whole(const Variant& variant, Size size, int N, int thr
 
 std::string Planner::add_reference(Size size) {
     Case made = sized(hyperterrain(), size, 1);
-    made.tracer = render::Tracer::reference;
+    made.tracer = integrate::Tracer::reference;
     const int blocks = plan_.settings.rays ? 1 : plan_.settings.quick ? 12 : kReferenceBlocks;
     made.subset = blocks_of(size.width, size.height, kReferenceBlock, blocks, kReferenceSeed);
     return add(made);

@@ -15,7 +15,7 @@ namespace {
 double weight_of(const Case& what) {
     const double samples = static_cast<double>(what.scene.sampling.N) * what.scene.sampling.N;
     const double rays = static_cast<double>(what.subset.pixels()) * samples;
-    return (what.tracer == render::Tracer::reference ? 40 * rays : rays) / what.threads;
+    return (what.tracer == integrate::Tracer::reference ? 40 * rays : rays) / what.threads;
 }
 
 // One more round of every case, piece by piece in turn. False if cancelled.

@@ -17,7 +17,7 @@ inline constexpr std::array<double, 3> kTargets{1.0 / 64, 1.0 / 256, 1.0 / 1024}
 struct ConvergeSeries {
     scene::EstimatorKind estimator{};
     int m = 0;
-    render::Tracer tracer{};
+    integrate::Tracer tracer{};
     std::vector<const ConvergePoint*> points;
     std::optional<PowerLaw> against_samples;  // RMSE against N * N; without limited points
     std::optional<PowerLaw> against_seconds;  // of CPU: what the clock says depends on who else uses the machine

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "src/image/compare.h"
-#include "src/render/make_image.h"
+#include "src/integrate/make_image.h"
 #include "src/render/processors.h"
 #include "src/render/render.h"
 #include "tools/converge/budget.h"
@@ -38,7 +38,7 @@ class Run {
         all_.scene = scene;
         all_.first_seed = scene.sampling.seed;
         window_ = {0, 0, scene.film.width, scene.film.height};
-        for (const render::Tracer tracer : settings.tracers) images_.push_back(render::make_image(scene, tracer));
+        for (const integrate::Tracer tracer : settings.tracers) images_.push_back(integrate::make_image(scene, tracer));
         if (all_.settings.seeds == 0)
             all_.settings.seeds = scene.image == scene::ImageKind::surface || scene.image == scene::ImageKind::wheel
                                       ? kSeedsOfScenes
@@ -82,7 +82,7 @@ class Run {
     render::ProgressCallback progress_;
     const render::CancelToken& cancel_;
     render::Window window_;
-    std::vector<std::unique_ptr<render::ImageFunction>> images_;
+    std::vector<std::unique_ptr<integrate::ImageFunction>> images_;
     std::vector<Combination> combinations_;
     int reference_threads_ = 0;
     std::uint64_t rays_ = 0;
@@ -149,7 +149,7 @@ std::vector<int> Run::reference_orders() const {
 double Run::reference_cost_s(int largest_N) const {
     double slowest = 0;  // of those by the tracer that references are made with
     for (const Combination& combination : combinations_) {
-        if (all_.settings.tracers[combination.tracer] == render::Tracer::fast || all_.settings.tracers.size() == 1)
+        if (all_.settings.tracers[combination.tracer] == integrate::Tracer::fast || all_.settings.tracers.size() == 1)
             slowest = std::max(slowest, combination.second_a_sample);
     }
     double sum = 0;

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "src/image/picture.h"
+#include "src/integrate/surface_image.h"
 #include "src/render/cancel.h"
 #include "src/render/progress_printer.h"
-#include "src/render/surface_image.h"
 #include "src/scene/scene.h"
 #include "tools/converge/statistics.h"
 
@@ -19,7 +19,7 @@ struct ConvergeSettings {
     std::vector<scene::EstimatorKind> estimators;
     std::vector<int> orders;
     std::vector<int> Ns;  // ascending
-    std::vector<render::Tracer> tracers;
+    std::vector<integrate::Tracer> tracers;
     int seeds = 0;        // 0: as many as suit the image
     int repeats = 3;      // timed renders of a point, at least
     int threads = 0;      // of every render; 0: one for what is timed, all of the machine for the rest
@@ -32,11 +32,11 @@ enum class Limit { none, reference, rounding };
 struct ConvergePoint {
     scene::EstimatorKind estimator{};
     int m = 0;
-    render::Tracer tracer{};
+    integrate::Tracer tracer{};
     int N = 0;
     bool fixed = false;  // every seed gives the same picture
 
-    render::Counters counters;  // of one render
+    integrate::Counters counters;  // of one render
     std::vector<double> seconds, cpu_seconds;
     std::vector<double> mean_squares, relative, largest, percentile99;  // one a seed
     PixelErrors errors;

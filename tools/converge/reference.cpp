@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "src/render/make_image.h"
+#include "src/integrate/make_image.h"
 #include "src/render/progressive.h"
 #include "src/sample/counter_hash.h"
 #include "tools/converge/truth.h"
@@ -55,7 +55,7 @@ std::optional<ConvergeReference> make_reference(const scene::Scene& scene, int m
                                                 const render::CancelToken& cancel) {
     const render::Window window = frame_of(scene);
     if (const auto truth = exact_picture(scene, m, window)) return of_truth(scene, m, *truth);
-    const auto image_function = render::make_image(scene);
+    const auto image_function = integrate::make_image(scene);
     render::EstimatorSettings settings = render::estimator_settings(scene);
     settings.kind = scene::EstimatorKind::shared_sobol;
     settings.N = N;

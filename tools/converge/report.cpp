@@ -15,7 +15,7 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 
 }  // namespace
 
-const char* tracer_name(render::Tracer tracer) { return tracer == render::Tracer::fast ? "fast" : "reference"; }
+const char* tracer_name(integrate::Tracer tracer) { return tracer == integrate::Tracer::fast ? "fast" : "reference"; }
 
 const char* limit_name(Limit limit) {
     if (limit == Limit::none) return "";

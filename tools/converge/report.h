@@ -37,7 +37,7 @@ std::vector<std::filesystem::path> report_files(const std::filesystem::path& fol
 void write_report(const ConvergeReport& report, const std::filesystem::path& folder);
 
 // "fast" or "reference".
-const char* tracer_name(render::Tracer tracer);
+const char* tracer_name(integrate::Tracer tracer);
 
 // "", "reference" or "rounding".
 const char* limit_name(Limit limit);

@@ -60,7 +60,7 @@ std::string with_slope(const ConvergeSeries& series, const std::optional<PowerLa
 
 class Panel {
   public:
-    Panel(const ConvergeReport& report, PlotAgainst against, int m, render::Tracer tracer) : against_(against) {
+    Panel(const ConvergeReport& report, PlotAgainst against, int m, integrate::Tracer tracer) : against_(against) {
         for (const ConvergeSeries& series : report.analysis.series) {
             if (series.m == m && series.tracer == tracer) add(series);
         }
@@ -155,7 +155,7 @@ Plot converge_plot(const ConvergeReport& report, PlotAgainst against) {
     Plot plot;
     plot.title = fmt::format("{}: error against {}, with fitted slopes", report.function,
                              against == PlotAgainst::samples ? "samples" : "time");
-    for (const render::Tracer tracer : experiment.settings.tracers) {
+    for (const integrate::Tracer tracer : experiment.settings.tracers) {
         std::vector<int> orders;
         for (const ConvergeSeries& series : report.analysis.series) {
             if (std::ranges::find(orders, series.m) == orders.end()) orders.push_back(series.m);

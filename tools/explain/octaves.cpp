@@ -55,11 +55,11 @@ std::vector<OctavePlan> plan_octaves(const scene::Scene& scene) {
     return plans;
 }
 
-std::string octaves_note(const scene::Scene& scene, render::Tracer tracer) {
+std::string octaves_note(const scene::Scene& scene, integrate::Tracer tracer) {
     const std::string everywhere = fmt::format(
         "Every octave shapes hits and normals at all distances up to far = {:g}; none is dropped for being small.\n",
         scene.camera.far);
-    if (tracer == render::Tracer::reference)
+    if (tracer == integrate::Tracer::reference)
         return everywhere + "The reference tracer evaluates all of them at each step.\n";
     return everywhere +
            "On the way a fine octave is evaluated only where the coarser ones leave the sign of f open, or steps are "

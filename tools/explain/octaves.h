@@ -12,6 +12,6 @@ namespace strata::tools {
 std::vector<OctavePlan> plan_octaves(const scene::Scene& scene);
 
 // How the tracer treats octaves, in a sentence or two.
-std::string octaves_note(const scene::Scene& scene, render::Tracer tracer);
+std::string octaves_note(const scene::Scene& scene, integrate::Tracer tracer);
 
 }  // namespace strata::tools

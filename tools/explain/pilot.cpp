@@ -17,10 +17,10 @@ constexpr double kWidestBlock = 32;   // pixels: as wide as a render's tiles
 
 double cpu_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-class Constant final : public render::ImageFunction {
+class Constant final : public integrate::ImageFunction {
   public:
-    void evaluate(const render::SampleBatch& /*samples*/, std::span<glm::vec3> radiance,
-                  render::Counters& /*counters*/) const override {
+    void evaluate(const integrate::SampleBatch& /*samples*/, std::span<glm::vec3> radiance,
+                  integrate::Counters& /*counters*/) const override {
         std::ranges::fill(radiance, glm::vec3(0.5f));
     }
 };
@@ -56,7 +56,7 @@ std::vector<glm::ivec2> choose_owners(const render::Window& window, std::int64_t
 
 }  // namespace
 
-PilotRun run_pilot(const render::ImageFunction& image, const render::EstimatorSettings& settings,
+PilotRun run_pilot(const integrate::ImageFunction& image, const render::EstimatorSettings& settings,
                    const render::Window& owners, std::uint64_t rays) {
     const render::Estimator estimator(settings);
     const auto samples = static_cast<std::size_t>(estimator.sample_count());

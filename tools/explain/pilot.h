@@ -3,21 +3,21 @@
 
 #include <cstdint>
 
+#include "src/integrate/image_function.h"
 #include "src/render/estimator.h"
 #include "src/render/film.h"
-#include "src/render/image_function.h"
 
 namespace strata::tools {
 
 struct PilotRun {
-    render::Counters counters;
+    integrate::Counters counters;
     double cpu_seconds = 0.0;  // of evaluating the image function
 };
 
 // About `rays` samples (all, if there are no more; at least a pixel's) of those that pixels of the window take, or
 // cells, where samples are shared: small blocks of neighbours all over the window, which share what a render's samples
 // share.
-PilotRun run_pilot(const render::ImageFunction& image, const render::EstimatorSettings& settings,
+PilotRun run_pilot(const integrate::ImageFunction& image, const render::EstimatorSettings& settings,
                    const render::Window& owners, std::uint64_t rays);
 
 // CPU time of placing a sample and of adding it up, in seconds: what a constant picture costs under the estimator.

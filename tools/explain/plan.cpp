@@ -145,7 +145,7 @@ void add_estimator(FeatureList& list, const scene::Scene& scene) {
 
 }  // namespace
 
-Plan make_plan(const scene::Scene& scene, render::Tracer tracer, int passes, const std::vector<Aov>& aovs) {
+Plan make_plan(const scene::Scene& scene, integrate::Tracer tracer, int passes, const std::vector<Aov>& aovs) {
     FeatureList list;
     Plan plan;
     add_motion(list, scene);

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "noise/relief/certificate.h"
-
-#include "src/render/surface_image.h"
+#include "src/integrate/surface_image.h"
 #include "src/scene/scene.h"
 #include "tools/aov.h"
 
@@ -52,6 +51,6 @@ struct Plan {
 };
 
 // Of a valid scene. passes: of N*N samples each, to be averaged.
-Plan make_plan(const scene::Scene& scene, render::Tracer tracer, int passes = 1, const std::vector<Aov>& aovs = {});
+Plan make_plan(const scene::Scene& scene, integrate::Tracer tracer, int passes = 1, const std::vector<Aov>& aovs = {});
 
 }  // namespace strata::tools

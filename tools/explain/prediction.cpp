@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "src/image/encode.h"
+#include "src/integrate/make_image.h"
 #include "src/render/estimator.h"
-#include "src/render/make_image.h"
 #include "src/render/processors.h"
 #include "src/render/render.h"
 #include "src/scene/needs.h"
@@ -84,7 +84,7 @@ void leave_out(const scene::Scene& scene, Costs& costs) {
 }
 
 void extrapolate(const PilotRun& run, double estimator_s, int threads, Costs& costs) {
-    const render::Counters& c = run.counters;
+    const integrate::Counters& c = run.counters;
     const double ratio = static_cast<double>(costs.rays) / static_cast<double>(c.rays);
     const auto scaled = [&](std::uint64_t count) { return ratio * static_cast<double>(count); };
     costs.shadow_rays = scaled(c.shadow_rays);
@@ -98,8 +98,8 @@ void extrapolate(const PilotRun& run, double estimator_s, int threads, Costs& co
 
 }  // namespace
 
-std::uint64_t pilot_rays(std::uint64_t rays, render::Tracer tracer) {
-    const std::uint64_t most = tracer == render::Tracer::reference ? kMostReferenceRays : kMostPilotRays;
+std::uint64_t pilot_rays(std::uint64_t rays, integrate::Tracer tracer) {
+    const std::uint64_t most = tracer == integrate::Tracer::reference ? kMostReferenceRays : kMostPilotRays;
     const auto share = static_cast<std::uint64_t>(kPilotFraction * static_cast<double>(rays));
     return std::min(rays, std::clamp(share, kLeastPilotRays, most));
 }
@@ -119,7 +119,7 @@ Prediction predict(const scene::Scene& scene, const render::Window& window, cons
     Costs& costs = prediction.costs;
     costs.rays = count_rays(scene, window);
     leave_out(scene, costs);
-    const auto image = render::make_image(scene, settings.tracer);
+    const auto image = integrate::make_image(scene, settings.tracer);
     costs.peak_memory_bytes =
         expected_memory(window, estimator, image->batch_samples(), prediction.threads, settings.passes) +
         aov_memory(window, settings.aovs);

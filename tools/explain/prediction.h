@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "src/integrate/surface_image.h"
 #include "src/render/film.h"
-#include "src/render/surface_image.h"
 #include "src/scene/scene.h"
 #include "tools/aov.h"
 
@@ -40,13 +40,13 @@ inline constexpr std::uint64_t kLeastPilotRays = 4096;
 inline constexpr std::uint64_t kMostPilotRays = 1u << 18;
 inline constexpr std::uint64_t kMostReferenceRays = 1u << 14;
 
-std::uint64_t pilot_rays(std::uint64_t rays, render::Tracer tracer);
+std::uint64_t pilot_rays(std::uint64_t rays, integrate::Tracer tracer);
 
 // Rays of one pass over the window of a valid scene's frame, exactly.
 std::uint64_t count_rays(const scene::Scene& scene, const render::Window& window);
 
 struct PredictionSettings {
-    render::Tracer tracer = render::Tracer::fast;
+    integrate::Tracer tracer = integrate::Tracer::fast;
     int threads = 0;  // 0: as many as the machine has
     int passes = 1;   // costs are those of one, but memory
     std::vector<Aov> aovs{};

@@ -81,7 +81,7 @@ class Maker {
     image::Picture render_part(const Part& part) {
         stop_if_cancelled();
         RenderedPicture rendered =
-            render_picture(part.scene, part.window, render::Tracer::fast,
+            render_picture(part.scene, part.window, integrate::Tracer::fast,
                            {.threads = options_.threads, .on_progress = progress_.of_part(part), .cancel = &cancel_});
         if (rendered.result.cancelled) throw Interrupted();
         progress_.finish(part, rendered.result.counters.rays);

@@ -94,7 +94,7 @@ Picture picture(const RayJury& jury) {
     }
     result.hits = jury.trace(result.rays);
     std::vector<glm::vec3> radiance(u.size());
-    render::Counters counters;
+    integrate::Counters counters;
     jury.image().evaluate({u, v, t}, radiance, counters);
     for (const glm::vec3& r : radiance) result.radiance.push_back(static_cast<double>(r.g));
     return result;

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "src/filter/bspline_table.h"
-#include "src/render/make_image.h"
+#include "src/integrate/make_image.h"
 #include "src/render/render.h"
 #include "tools/stability/case.h"
 #include "tools/stability/scene_spec.h"
@@ -18,7 +18,7 @@ namespace {
 render::Film picture(const scene::Scene& scene) {
     render::RenderOptions options;
     options.threads = 1;
-    return render::render(*render::make_image(scene), render::Estimator(render::estimator_settings(scene)),
+    return render::render(*integrate::make_image(scene), render::Estimator(render::estimator_settings(scene)),
                           {0, 0, scene.film.width, scene.film.height}, options)
         .film;
 }
@@ -36,7 +36,7 @@ std::vector<Row> instant(const Settings& settings, Random&) {
         const scene::Scene scene = wheel.scene();
         const render::Film film = picture(scene);
         const render::Estimator estimator(render::estimator_settings(scene));
-        const auto image = render::make_image(scene);
+        const auto image = integrate::make_image(scene);
         const double t = frame / scene.shutter.fps;
         for (int y = 0; y < scene.film.height; ++y) {
             for (int x = 0; x < scene.film.width; ++x) {
@@ -45,7 +45,7 @@ std::vector<Row> instant(const Settings& settings, Random&) {
                 for (const render::ProbeSample& s : samples) {
                     const double u = x + 0.5 + s.u, v = y + 0.5 + s.v;
                     glm::vec3 radiance;
-                    render::Counters counters;
+                    integrate::Counters counters;
                     image->evaluate({{&u, 1}, {&v, 1}, {&t, 1}}, {&radiance, 1}, counters);
                     sum += static_cast<double>(radiance.r);
                     spun += s.time_s != t;

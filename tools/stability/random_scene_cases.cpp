@@ -102,7 +102,7 @@ std::vector<Row> random_scenes(const std::string& name, const Settings& settings
         }
         const std::vector<double> t(u.size(), 0.0);
         std::vector<glm::vec3> radiance(u.size());
-        render::Counters counters;
+        integrate::Counters counters;
         jury->image().evaluate({u, v, t}, radiance, counters);
         for (std::size_t i = 0; i < radiance.size(); ++i) {
             if (std::isfinite(radiance[i].r + radiance[i].g + radiance[i].b)) continue;

@@ -22,7 +22,7 @@ oracle::Vec as_vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 }  // namespace
 
 RayJury::RayJury(const SceneSpec& spec, const Settings& settings, std::uint32_t step_limit)
-    : spec_(spec), scene_(spec.scene()), settings_(settings), image_(scene_, render::Tracer::fast, step_limit) {}
+    : spec_(spec), scene_(spec.scene()), settings_(settings), image_(scene_, integrate::Tracer::fast, step_limit) {}
 
 double RayJury::time() const { return render::estimator_settings(scene_).shutter.middle_s(); }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "src/render/surface_image.h"
+#include "src/integrate/surface_image.h"
 #include "tools/stability/case.h"
 #include "tools/stability/scene_spec.h"
 
@@ -27,7 +27,7 @@ class RayJury {
     RayJury(const SceneSpec& spec, const Settings& settings, std::uint32_t step_limit = trace::kStepLimit);
 
     const scene::Scene& scene() const { return scene_; }
-    const render::SurfaceImage& image() const { return image_; }
+    const integrate::SurfaceImage& image() const { return image_; }
     const trace::Field& field() const { return image_.field(); }
 
     // Mid-shutter, when all rays are traced.
@@ -66,7 +66,7 @@ class RayJury {
     SceneSpec spec_;
     scene::Scene scene_;
     Settings settings_;
-    render::SurfaceImage image_;
+    integrate::SurfaceImage image_;
     long rays_ = 0, hits_ = 0, unresolved_ = 0, violations_ = 0, undecided_ = 0, cut_short_ = 0;
     double thickest_ = 0.0, steps_ = 0.0;
     Worst most_steps_;

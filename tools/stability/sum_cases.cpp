@@ -24,7 +24,7 @@ render::RenderOptions one_thread() {
 constexpr float kBright = 1e6f, kDim = 1e-6f;
 
 // 1e6 in a share of all positions, 1e-6 elsewhere, as a hash of the position decides.
-class Speckle final : public render::ImageFunction {
+class Speckle final : public integrate::ImageFunction {
   public:
     explicit Speckle(double share) : threshold_(static_cast<std::uint64_t>(share * 0x1p32)) {}
 
@@ -33,7 +33,8 @@ class Speckle final : public render::ImageFunction {
         return (noise::mix64(noise::mix64(bits(u)) + bits(v)) >> 32) < threshold_ ? kBright : kDim;
     }
 
-    void evaluate(const render::SampleBatch& samples, std::span<glm::vec3> radiance, render::Counters&) const override {
+    void evaluate(const integrate::SampleBatch& samples, std::span<glm::vec3> radiance,
+                  integrate::Counters&) const override {
         for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] = glm::vec3(at(samples.u[i], samples.v[i]));
     }
 
@@ -92,10 +93,10 @@ std::vector<Row> mixed(EstimatorKind kind, const std::string& name, const Settin
              {}}};
 }
 
-class Constant final : public render::ImageFunction {
+class Constant final : public integrate::ImageFunction {
   public:
     explicit Constant(float radiance) : radiance_(radiance) {}
-    void evaluate(const render::SampleBatch&, std::span<glm::vec3> radiance, render::Counters&) const override {
+    void evaluate(const integrate::SampleBatch&, std::span<glm::vec3> radiance, integrate::Counters&) const override {
         for (glm::vec3& r : radiance) r = glm::vec3(radiance_);
     }
 

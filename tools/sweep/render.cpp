@@ -58,7 +58,7 @@ SweepOutcome render_sweep(const SweepJob& job, SweepLedger& ledger, const render
     BatchProgress progress(total, printer.callback());
     for (const SweepPicture* picture : missing) {
         const RenderedPicture rendered = render_picture(
-            picture->scene, picture->window, render::Tracer::fast,
+            picture->scene, picture->window, integrate::Tracer::fast,
             {.threads = job.threads, .on_progress = progress.next(rays_of(*picture)), .cancel = &cancel});
         outcome.cancelled = rendered.result.cancelled || cancel.requested();
         if (!rendered.result.cancelled) {

@@ -66,7 +66,7 @@ struct Tally {
 
 class Bench {
   public:
-    Bench(const scene::Scene& scene, RTCScene mesh, const render::SurfaceImage& image)
+    Bench(const scene::Scene& scene, RTCScene mesh, const integrate::SurfaceImage& image)
         : scene_(scene), mesh_(mesh), image_(image), estimator_(render::estimator_settings(scene)) {}
 
     Tally measure(const render::Window& window) {
@@ -194,7 +194,7 @@ class Bench {
 
     const scene::Scene& scene_;
     RTCScene mesh_;
-    const render::SurfaceImage& image_;
+    const integrate::SurfaceImage& image_;
     render::Estimator estimator_;
     render::SampleSet samples_;
     std::vector<trace::Ray> rays_;
@@ -212,7 +212,7 @@ render::Window parse_window(const std::string& text) {
 
 nlohmann::ordered_json run(const std::vector<std::string>& words) {
     const scene::Scene scene = scene::load_scene(words[0]);
-    const render::SurfaceImage image(scene, render::Tracer::fast);
+    const integrate::SurfaceImage image(scene, integrate::Tracer::fast);
     const tools::bench::HeightGrid grid = tools::bench::sample_heights(image, scene, std::stoi(words[2]), words[1]);
     RTCDevice device = rtcNewDevice(nullptr);
     rtcSetDeviceMemoryMonitorFunction(device, count_memory, nullptr);

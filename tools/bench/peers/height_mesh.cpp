@@ -41,7 +41,7 @@ double height_at(const HeightGrid& grid, double x, double z) {
 
 }  // namespace
 
-std::vector<float> heights_from_above(const render::SurfaceImage& image, const std::vector<glm::dvec2>& xz) {
+std::vector<float> heights_from_above(const integrate::SurfaceImage& image, const std::vector<glm::dvec2>& xz) {
     const double top = image.field().amplitude() + 1e-3;
     std::vector<trace::Ray> rays(xz.size());
     for (std::size_t i = 0; i < xz.size(); ++i) {
@@ -58,7 +58,7 @@ std::vector<float> heights_from_above(const render::SurfaceImage& image, const s
     return y;
 }
 
-HeightGrid sample_heights(const render::SurfaceImage& image, const scene::Scene& scene, int side,
+HeightGrid sample_heights(const integrate::SurfaceImage& image, const scene::Scene& scene, int side,
                           const std::filesystem::path& cache) {
     const double half_width = scene.camera.far * std::sin(glm::radians(0.5 * scene.camera.fov_deg)) + 1.0;
     HeightGrid grid{.side = side,
@@ -79,7 +79,7 @@ HeightGrid sample_heights(const render::SurfaceImage& image, const scene::Scene&
     return grid;
 }
 
-HeightError height_error(const render::SurfaceImage& image, const HeightGrid& grid) {
+HeightError height_error(const integrate::SurfaceImage& image, const HeightGrid& grid) {
     constexpr std::uint32_t kPoints = 65536;
     std::vector<glm::dvec2> xz(kPoints);
     for (std::uint32_t i = 0; i < kPoints; ++i) {

@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "src/render/surface_image.h"
+#include "src/integrate/surface_image.h"
 
 namespace strata::tools::bench {
 
@@ -23,17 +23,17 @@ struct HeightGrid {
 
 // What a camera that looks along +z sees up to its far end, and a strip behind it. Heights are the fast tracer's, to
 // 1e-6; or those of `cache`, which is written when it is not there.
-HeightGrid sample_heights(const render::SurfaceImage& image, const scene::Scene& scene, int side,
+HeightGrid sample_heights(const integrate::SurfaceImage& image, const scene::Scene& scene, int side,
                           const std::filesystem::path& cache);
 
 // First heights below the highest point possible at (x, z).
-std::vector<float> heights_from_above(const render::SurfaceImage& image, const std::vector<glm::dvec2>& xz);
+std::vector<float> heights_from_above(const integrate::SurfaceImage& image, const std::vector<glm::dvec2>& xz);
 
 // rms and greatest distance, straight up or down, of the mesh from the surface, at 65536 points spread over the grid.
 struct HeightError {
     double rms = 0, greatest = 0;
 };
-HeightError height_error(const render::SurfaceImage& image, const HeightGrid& grid);
+HeightError height_error(const integrate::SurfaceImage& image, const HeightGrid& grid);
 
 // Two triangles a cell, in a scene of its own.
 RTCScene build_mesh(RTCDevice device, const HeightGrid& grid);

@@ -1,0 +1,126 @@
+#include "src/accel/cell_windows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/trace/rounding_pad.h"
+
+namespace strata::accel {
+
+namespace {
+
+// Speed only, as all constants here but the last: near the surface a window's error in f is about kNearError of
+// what f falls by over a tolerance, its slope taken to be no less than kLeastSlope; elsewhere kFarError of f.
+constexpr double kNearError = 0.2;
+constexpr double kLeastSlope = 0.1;
+constexpr double kFarError = 0.15;
+
+// A window does not lead further than to where f should have fallen by this part.
+constexpr double kFall = 0.35;
+
+// Windows narrower than so many radii of the beam are not worth it.
+constexpr double kLeastWidth = 1.2;
+
+// Windows of one cell at most: rays that need more are few, or near no surface.
+constexpr int kMostWindows = 8;
+
+// Of positions: covers the rounding of a centre and of a ray's point.
+constexpr double kPlace = 0x1p-49;
+
+double radius_at(const trace::Beam& beam, double s) { return beam.radius0 + beam.noise_radius + beam.spread * s; }
+
+}  // namespace
+
+// No octaves where no window is worth it.
+trace::WindowPlan::Size CellWindows::next_size(const WindowChain& chain) const {
+    const double beam_radius = radius_at(chain.cell->beam, chain.s);
+    trace::WindowPlan::Size size;
+    if (chain.clearance > 0.0) {
+        size = plan_.size(kFarError * chain.clearance);
+        if (chain.slope < 0.0) size.radius = std::min(size.radius, kFall * chain.clearance / -chain.slope);
+    }
+    if (size.radius < kLeastWidth * beam_radius) {
+        const double slope = std::clamp(std::abs(chain.slope), kLeastSlope, 1.0);
+        size = plan_.size(kNearError * tolerance_ * chain.s * slope);
+    }
+    return size.radius > kLeastWidth * beam_radius ? size : trace::WindowPlan::Size{};
+}
+
+// Half the length over which all of the beam lies in a ball of that radius about a point of the axis; 0 where it is
+// wider than the ball.
+double CellWindows::half_length(const trace::Beam& beam, double begin, double ball) const {
+    const double reach = glm::length(beam.origin) + glm::length(beam.noise_shift) + begin + 2.0 * ball;
+    const double inner = ball - beam.noise_radius - kPlace * reach;
+    const double radius = beam.radius0 + beam.spread * (begin + 2.0 * ball);  // no less than at the far end
+    if (!(inner > radius)) return 0.0;
+    const double half = std::sqrt((inner - radius) * (inner + radius));
+    if (!field_.is_planar_noise()) return half;
+    // Of the way along the axis the noise sees the horizontal part.
+    const double speed = std::hypot(beam.direction.x, beam.direction.z);
+    return speed > 0.0 ? std::clamp((inner - radius) / speed, half, ball) : half;
+}
+
+// Puts another window at the chain's end. False: none is worth it.
+bool CellWindows::extend(WindowChain& chain, std::vector<trace::Window>& windows) const {
+    const CellBeam& cell = *chain.cell;
+    const trace::Beam& beam = cell.beam;
+    const trace::WindowPlan::Size size = next_size(chain);
+    if (size.octaves == 0) return false;
+    // Rays that come from this distance have at least that axis coordinate.
+    const double from = (chain.s - cell.margins.shift) * trace::kSooner,
+                 begin = from * cell.margins.cosine * trace::kSooner;
+    const double half = half_length(beam, begin, size.radius);
+    if (half <= 0.0) return false;
+
+    const auto index = static_cast<std::uint32_t>(windows.size());
+    trace::Window& window = windows.emplace_back();
+    window.centre = beam.origin + (begin + half) * beam.direction + beam.noise_shift;
+    window.from = from;
+    window.to = (begin + 2.0 * half - cell.margins.shift) * trace::kSooner;
+    window.octaves = size.octaves;
+    const glm::dvec3 reach = glm::abs(window.centre);
+    window.error = plan_.error(size, std::max({reach.x, reach.y, reach.z}));
+    if (chain.length++ == 0) {
+        chain.first = index;
+    } else {
+        windows[chain.last].next = static_cast<std::int32_t>(index - chain.last);
+    }
+    chain.last = index;
+    chain.half = half;
+    chain.s = begin + 2.0 * half;
+    return true;
+}
+
+// Notes what the chain's last window says of f where it ends. False: by then all rays should have hit, or be leaving.
+bool CellWindows::goes_on(WindowChain& chain, const trace::Window& window) const {
+    const trace::Beam& beam = chain.cell->beam;
+    const glm::dvec3 x = window.centre - beam.noise_shift;
+    const double f = field_.base(x) - static_cast<double>(window.value);
+    const glm::dvec3 gradient = field_.base_gradient(x) - glm::dvec3(window.gradient);
+    const double slope = glm::dot(gradient, beam.direction);
+    const double across = glm::length(gradient - slope * beam.direction);
+    const double spread = across * radius_at(beam, chain.s) + static_cast<double>(window.error);
+    const double end = f + slope * chain.half;
+    chain.slope = slope;
+    chain.clearance = std::max(end - spread, 0.0);
+    const bool have_hit = end + spread < 0.0;
+    const bool leave = slope > 0.0 && f > spread;
+    return !have_hit && !leave && chain.length < kMostWindows;
+}
+
+void CellWindows::build(WindowChains& out, trace::TraceCounters& counters) const {
+    out.windows.clear();
+    out.open.clear();
+    for (std::uint32_t i = 0; i < out.chains.size(); ++i) {
+        if (out.chains[i].cell != nullptr) out.open.push_back(i);
+    }
+    while (!out.open.empty()) {
+        const std::size_t begin = out.windows.size();
+        std::erase_if(out.open, [&](std::uint32_t i) { return !extend(out.chains[i], out.windows); });
+        jets_.evaluate(std::span(out.windows).subspan(begin), counters);
+        std::erase_if(out.open,
+                      [&](std::uint32_t i) { return !goes_on(out.chains[i], out.windows[out.chains[i].last]); });
+    }
+}
+
+}  // namespace strata::accel

@@ -1,0 +1,27 @@
+#include "src/integrate/channels.h"
+
+namespace strata::integrate {
+
+namespace {
+
+void add(SampleCost& cost, const trace::Hit& hit) {
+    cost.steps += hit.steps;
+    cost.noise_evaluations += hit.noise_evaluations;
+}
+
+}  // namespace
+
+// Normals take the octaves that were missing from the hits' gradients.
+void fill_channels(const SurfaceSetup& setup, SurfaceChunk& chunk) {
+    const auto octaves = static_cast<std::uint32_t>(setup.field.evaluations());
+    chunk.costs.assign(chunk.rays.size(), {});
+    for (std::size_t i = 0; i < chunk.rays.size(); ++i) add(chunk.costs[i], chunk.hits[i]);
+    for (std::size_t i = 0; i < chunk.sample.size(); ++i) {
+        const trace::Hit& hit = chunk.surface_hits[i];
+        if (!hit.on_bound) chunk.costs[chunk.sample[i]].noise_evaluations += octaves - hit.octaves;
+    }
+    for (std::size_t i = 0; i < chunk.shadow.hits.size(); ++i)
+        add(chunk.costs[chunk.sample[chunk.shadow.owner[i]]], chunk.shadow.hits[i]);
+}
+
+}  // namespace strata::integrate

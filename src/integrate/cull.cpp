@@ -1,0 +1,63 @@
+#include "src/integrate/cull.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "src/integrate/phase_meter.h"
+
+namespace strata::integrate {
+
+void follow_beams(const SurfaceSetup& setup, const SampleBatch& samples, CulledBatch& batch, Counters& counters) {
+    PhaseMeter meter(counters);
+    trace::TraceCounters traced;
+    batch.first_cell = batch.last_cell = batch.first = batch.last = 0;
+    if (setup.screen_beams) {
+        setup.screen_beams->trace(samples.u, samples.v, samples.t, batch.beamed, traced);
+    } else {
+        std::vector<std::uint32_t>& order = batch.beamed.samples.order;
+        order.resize(samples.u.size());
+        std::iota(order.begin(), order.end(), 0u);
+        batch.beamed.cells.clear();
+        if (!order.empty()) batch.beamed.cells.push_back({.last = static_cast<std::uint32_t>(order.size())});
+    }
+    meter.book(Phase::beams, traced);
+}
+
+// Whole cells, as many as fit; one that is too large by itself is taken in several chunks.
+bool next_chunk(CulledBatch& batch, SurfaceChunk& chunk) {
+    const std::span<const accel::BeamedCell> cells = batch.beamed.cells;
+    if (batch.last_cell == 0 || batch.last == cells[batch.last_cell - 1].last) {
+        if (batch.last_cell == cells.size()) return false;
+        batch.first_cell = batch.last_cell++;
+        const std::size_t first = cells[batch.first_cell].first;
+        while (batch.last_cell < cells.size() && cells[batch.last_cell].last - first <= kChunk) ++batch.last_cell;
+    }
+    batch.first = batch.last;
+    batch.last = std::min<std::size_t>(batch.first + kChunk, cells[batch.last_cell - 1].last);
+    chunk.order = std::span(batch.beamed.samples.order).subspan(batch.first, batch.last - batch.first);
+    return true;
+}
+
+void cull_rays(const SurfaceSetup& setup, CulledBatch& batch, SurfaceChunk& chunk, Counters& counters) {
+    if (!setup.screen_beams) return;
+    PhaseMeter meter(counters);
+    const auto cells = std::span<const accel::BeamedCell>(batch.beamed.cells)
+                           .subspan(batch.first_cell, batch.last_cell - batch.first_cell);
+    if (batch.first == cells.front().first) {
+        trace::TraceCounters traced;
+        setup.screen_beams->open_windows(batch.beamed, cells, batch.windows, traced);
+        meter.book(Phase::windows, traced);
+    }
+    std::size_t cell = 0;
+    for (std::size_t i = 0; i < chunk.rays.size(); ++i) {
+        while (batch.first + i >= cells[cell].last) ++cell;
+        trace::Ray& ray = chunk.rays[i];
+        ray.start = cells[cell].misses ? std::numeric_limits<double>::infinity() : cells[cell].start;
+        ray.hint = cells[cell].hint;
+        ray.window = batch.windows.first(cell);
+    }
+    meter.book(Phase::shading);
+}
+
+}  // namespace strata::integrate

@@ -1,0 +1,53 @@
+#include "src/integrate/image_function.h"
+
+#include <algorithm>
+
+namespace strata::integrate {
+
+const char* name_of(Phase phase) {
+    switch (phase) {
+        case Phase::beams:
+            return "beams";
+        case Phase::windows:
+            return "windows";
+        case Phase::rays:
+            return "rays";
+        case Phase::normals:
+            return "normals";
+        case Phase::sun_beams:
+            return "sun beams";
+        case Phase::shadows:
+            return "shadows";
+        case Phase::shading:
+            return "shading";
+    }
+    return "";
+}
+
+PhaseCost& PhaseCost::operator+=(const PhaseCost& other) {
+    seconds += other.seconds;
+    noise_evaluations += other.noise_evaluations;
+    steps += other.steps;
+    left_out += other.left_out;
+    return *this;
+}
+
+Counters& Counters::operator+=(const Counters& other) {
+    rays += other.rays;
+    shadow_rays += other.shadow_rays;
+    hits += other.hits;
+    unresolved_rays += other.unresolved_rays;
+    noise_evaluations += other.noise_evaluations;
+    executed_lanes += other.executed_lanes;
+    steps += other.steps;
+    for (std::size_t i = 0; i < kPhases; ++i) phases[i] += other.phases[i];
+    return *this;
+}
+
+void ImageFunction::evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance,
+                                        std::span<SampleCost> costs, Counters& counters) const {
+    std::fill(costs.begin(), costs.end(), SampleCost{});
+    evaluate(samples, radiance, counters);
+}
+
+}  // namespace strata::integrate

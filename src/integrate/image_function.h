@@ -1,0 +1,70 @@
+// The one abstraction: a picture is radiance as a function of screen position and time. Estimators (estimator.h) turn
+// any such function into pixels and know nothing of what lies behind it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "src/integrate/sample_cost.h"
+#include "src/trace/ray.h"
+
+namespace strata::integrate {
+
+// Where the work of a ray-cast surface is done.
+enum class Phase { beams, windows, rays, normals, sun_beams, shadows, shading };
+inline constexpr std::size_t kPhases = 7;
+
+// "sun beams".
+const char* name_of(Phase phase);
+
+struct PhaseCost {
+    double seconds = 0.0;  // of one thread's time; depends on the machine, unlike all else here
+    std::uint64_t noise_evaluations = 0;
+    std::uint64_t steps = 0;
+    trace::LeftOut left_out{};
+
+    PhaseCost& operator+=(const PhaseCost& other);
+};
+
+// Work done, exact and independent of threads. What beams and windows do, that samples of a batch share, depends on the
+// batches and so on tiles and crop; as do executed_lanes, which count SIMD lanes that idle, too.
+struct Counters {
+    std::uint64_t rays = 0;  // image-function samples evaluated; counted by the renderer, all else by image functions
+    std::uint64_t shadow_rays = 0;
+    std::uint64_t hits = 0;
+    std::uint64_t unresolved_rays = 0;
+    std::uint64_t noise_evaluations = 0;
+    std::uint64_t executed_lanes = 0;
+    std::uint64_t steps = 0;
+    std::array<PhaseCost, kPhases> phases;
+
+    Counters& operator+=(const Counters& other);
+};
+
+// Positions in pixels in the whole frame (u right, v down, pixel (0,0) has its centre at (0.5, 0.5)); t in seconds.
+// The three spans have equal length.
+struct SampleBatch {
+    std::span<const double> u;
+    std::span<const double> v;
+    std::span<const double> t;
+};
+
+class ImageFunction {
+  public:
+    virtual ~ImageFunction() = default;
+
+    // Linear radiance of each sample. A sample's result depends on that sample alone, never on the rest of the batch.
+    // Thread-safe. counters belong to the caller.
+    virtual void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const = 0;
+
+    // How many samples to hand over at once: enough to amortise the call, few enough to stop soon when cancelled.
+    virtual std::size_t batch_samples() const { return 2048; }
+
+    // The same radiance, and what each sample cost: nothing, unless a function traces.
+    virtual void evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance,
+                                     std::span<SampleCost> costs, Counters& counters) const;
+};
+
+}  // namespace strata::integrate

@@ -1,0 +1,13 @@
+// Stage of a surface's picture: what the air between the eye and what was hit takes and adds.
+#pragma once
+
+#include "src/integrate/image_function.h"
+#include "src/integrate/surface_chunk.h"
+#include "src/integrate/surface_setup.h"
+
+namespace strata::integrate {
+
+// Haze, if there is any; chunk.radiance of the hits comes out as the eye sees it.
+void apply_medium(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counters);
+
+}  // namespace strata::integrate

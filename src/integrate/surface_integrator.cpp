@@ -1,0 +1,42 @@
+#include "src/integrate/surface_integrator.h"
+
+#include <algorithm>
+
+#include "src/integrate/channels.h"
+#include "src/integrate/light.h"
+#include "src/integrate/medium.h"
+#include "src/integrate/phase_meter.h"
+#include "src/integrate/place.h"
+#include "src/integrate/resolve.h"
+#include "src/integrate/trace_rays.h"
+
+namespace strata::integrate {
+
+void put_back(const SurfaceChunk& chunk, std::span<glm::vec3> radiance, std::span<SampleCost> costs,
+              Counters& counters) {
+    PhaseMeter meter(counters);
+    for (std::size_t i = 0; i < chunk.order.size(); ++i) radiance[chunk.order[i]] = chunk.radiance[i];
+    if (!costs.empty()) {
+        for (std::size_t i = 0; i < chunk.order.size(); ++i) costs[chunk.order[i]] = chunk.costs[i];
+    }
+    meter.book(Phase::shading);
+}
+
+void integrate_surface(const SurfaceSetup& setup, const SampleBatch& samples, std::span<glm::vec3> radiance,
+                       std::span<SampleCost> costs, SurfaceWork& work, Counters& counters) {
+    SurfaceChunk& chunk = work.chunk;
+    chunk.reserve(std::min(kChunk, samples.u.size()), setup.field.drifts(), setup.has_shadows);
+    follow_beams(setup, samples, work.batch, counters);
+    while (next_chunk(work.batch, chunk)) {
+        place_rays(setup, samples, chunk, counters);
+        cull_rays(setup, work.batch, chunk, counters);
+        trace_rays(setup, chunk, counters);
+        resolve_hits(setup, chunk, counters);
+        light_hits(setup, chunk, counters);
+        apply_medium(setup, chunk, counters);
+        if (!costs.empty()) fill_channels(setup, chunk);
+        put_back(chunk, radiance, costs, counters);
+    }
+}
+
+}  // namespace strata::integrate
