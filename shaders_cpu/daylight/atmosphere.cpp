@@ -25,6 +25,10 @@ constexpr double kOzoneMiddle = 25e3;
 constexpr double kOzoneReach = 15e3;
 constexpr double kDobsonMolecules = 2.6868e20;  // a square metre
 constexpr double kContrast = 3.912;             // -ln 0.02, Koschmieder
+// Chosen by paths followed at random with haze's true lobe, sun from 90 to -3 degrees and visibility 60 km: with 0.25, 0.5
+// and 1 the mean sky is within 4, 3 and 7 % of theirs, and the red horizon, where level rays cross much haze, within a fifth,
+// a quarter and the double of it.
+constexpr double kStraight = 0.5;
 constexpr double kVisible_nm = 550.0;
 
 double air_density(double height) {
@@ -57,7 +61,10 @@ void validate(const Atmosphere& a) {
 }
 
 Medium::Medium(const Atmosphere& a)
-    : haze_height_(a.haze_height), forward_(a.haze_forward), ground_albedo_(a.ground_albedo) {
+    : haze_height_(a.haze_height),
+      forward_(a.haze_forward),
+      straight_(kStraight * a.haze_forward),
+      ground_albedo_(a.ground_albedo) {
     validate(a);
     const double haze_550 = std::max(0.0, kContrast / a.visibility - air_scattering(a.air, kVisible_nm));
     const auto haze = [&](double wavelength_nm) {
@@ -76,9 +83,9 @@ Medium::Medium(const Atmosphere& a)
         channels_.ozone[c] = ozone * kOzoneChannelCrossSection[c];
     }
     haze_scattering_ = full_.haze * a.haze_albedo;
-    even_haze_scattering_ = haze_scattering_ * (1.0 - forward_);
+    even_haze_scattering_ = haze_scattering_ * (1.0 - straight_);
     diffuse_ = full_;
-    diffuse_.haze = full_.haze - haze_scattering_ * forward_;
+    diffuse_.haze = full_.haze - haze_scattering_ * straight_;
 }
 
 Densities Medium::densities(double height) const {
@@ -99,7 +106,7 @@ double Medium::haze_phase(double cosine) const {
 }
 
 double Medium::haze_lobe(double cosine) const {
-    return haze_phase(cosine) - (1.0 - forward_) / (4.0 * std::numbers::pi);
+    return haze_phase(cosine) - (1.0 - straight_) / (4.0 * std::numbers::pi);
 }
 
 }  // namespace strata::shaders

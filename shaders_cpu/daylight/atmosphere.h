@@ -48,9 +48,10 @@ struct Coefficients {
     }
 };
 
-// Light that haze sends on within a narrow cone is hard to tell from light that it never met. So diffuse light, which has
-// been scattered before, sees a haze that turns a part `haze_forward` of what it scatters by no angle at all, and the rest
-// evenly: less extinction, no lobe. This is the delta-M scaling of Wiscombe (1977) with nothing but the mean kept.
+// Light that haze turns a little is hard to tell from light that never met any. So diffuse light, which has been scattered
+// before, sees a haze that lets a part of what it scatters - half of haze_forward - go straight on, and sends the rest
+// everywhere evenly: less extinction, no lobe. The haze that the sun is seen through, and its light scattered once into the
+// eye, keep the true lobe, so that the bright ring about the sun is right (Nakajima and Tanaka 1988, their "TMS").
 class Medium {
   public:
     explicit Medium(const Atmosphere& atmosphere);
@@ -76,7 +77,7 @@ class Medium {
     Coefficients<Bands> full_, diffuse_;
     Coefficients<glm::dvec3> channels_;
     Bands haze_scattering_, even_haze_scattering_;
-    double haze_height_, forward_, ground_albedo_;
+    double haze_height_, forward_, straight_, ground_albedo_;
 };
 
 }  // namespace strata::shaders
