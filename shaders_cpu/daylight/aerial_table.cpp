@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kUps = 65;  // odd: one lies at the horizon
 constexpr int kAzimuths = 13;
-constexpr int kDistances = 49;      // as the fourth power: 1 km away they lie 0.5 km apart, at 100 km 16
+constexpr int kDistances = 65;      // as the fourth power: 1 km away they lie 0.4 km apart, at 100 km 12
 constexpr int kStepsADistance = 2;  // of the integral
 constexpr double kFarthest = 1200e3;
 
@@ -32,8 +32,8 @@ double up_of(int k, double horizon) {
 }
 
 Cell up_cell(double up, double horizon) {
-    const double x = up < horizon ? -std::sqrt((up - horizon) / (-1.0 - horizon))
-                                  : std::sqrt((up - horizon) / (1.0 - horizon));
+    const double x =
+        up < horizon ? -std::sqrt((up - horizon) / (-1.0 - horizon)) : std::sqrt((up - horizon) / (1.0 - horizon));
     return cell_of(0.5 * (1.0 + x), kUps);
 }
 

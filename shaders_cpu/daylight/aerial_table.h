@@ -19,9 +19,12 @@ struct AerialPerspective {
 AerialPerspective integrate_aerial(const AirLight& light, double height, double sun_up, const SkyDirection& direction,
                                    double distance);
 
-// The same for one observer, tabulated by direction and distance.
+// The same for one observer, tabulated by direction and distance: transmittance within 0.03, in-scatter within 5 % of
+// the sky's brightest. Distances lie close at the observer, who must be in dense air himself: up to kHighest.
 class AerialTable {
   public:
+    static constexpr double kHighest = 10e3;
+
     AerialTable(const AirLight& light, const SkyFrame& frame);
 
     AerialPerspective at(const Medium& medium, const SkyDirection& direction, double distance) const;

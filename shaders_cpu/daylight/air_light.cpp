@@ -27,8 +27,7 @@ AirRadiance AirLight::of_path(const AirPath& path, double sun_up, double cosine)
 
 Bands AirLight::of_ground(const AirPath& path, double sun_up, double cosine) const {
     const double up = (path.start_radius() * sun_up + path.length() * cosine) / kEarthRadius;
-    const Bands irradiance =
-        sun_.at({0, 0.0f}, 0.0, up).diffuse * std::max(0.0, up) + scattered_.ground_irradiance(up);
+    const Bands irradiance = sun_.at({0, 0.0f}, 0.0, up).diffuse * std::max(0.0, up) + scattered_.ground_irradiance(up);
     return path.diffuse_transmittance() * irradiance * (medium_.ground_albedo() / std::numbers::pi);
 }
 

@@ -13,7 +13,8 @@ namespace {
 constexpr double kDeepest = 10e3;  // below the sphere: a level line's dip over 357 km
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Where a line that starts at radius r crosses the sphere of the other radius: `sign` -1 the near and 1 the far crossing.
+// Where a line that starts at radius r crosses the sphere of the other radius: `sign` -1 the near and 1 the far
+// crossing.
 double crossing(double r, double up, double other, double sign) {
     const double discriminant = r * r * (up * up - 1.0) + other * other;
     return discriminant < 0.0 ? kInfinity : -r * up + sign * std::sqrt(discriminant);
@@ -23,7 +24,8 @@ double radius_at(double r, double up, double distance) {
     return std::sqrt(r * r + distance * (2.0 * r * up + distance));
 }
 
-// Calls use(from, to) for steps of the line from 0 to `length`, which grow as the cube of their number away from `lowest`.
+// Calls use(from, to) for steps of the line from 0 to `length`, which grow as the cube of their number away from
+// `lowest`.
 template <class Use>
 void each_step(double lowest, double length, int steps, const Use& use) {
     const double low = std::clamp(lowest, 0.0, length);
@@ -34,8 +36,7 @@ void each_step(double lowest, double length, int steps, const Use& use) {
     };
     for (int k = down; k > 0; --k) use(low * (1.0 - cube(k, down)), low * (1.0 - cube(k - 1, down)));
     const int rest = steps - down;
-    for (int k = 0; k < rest; ++k)
-        use(low + (length - low) * cube(k, rest), low + (length - low) * cube(k + 1, rest));
+    for (int k = 0; k < rest; ++k) use(low + (length - low) * cube(k, rest), low + (length - low) * cube(k + 1, rest));
 }
 
 // (1 - e^-x) / x: what is left, on the way out of a step of depth x, of light that arises evenly in it.

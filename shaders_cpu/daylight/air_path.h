@@ -9,8 +9,9 @@
 
 namespace strata::shaders {
 
-// Directions are given by `up`, the cosine to the vertical of the point where the line starts, `height` metres above the
-// sphere. Below the sphere the air goes on as it is at its surface, so that flat worlds have air along their far ground.
+// Directions are given by `up`, the cosine to the vertical of the point where the line starts, `height` metres above
+// the sphere. Below the sphere the air goes on as it is at its surface, so that flat worlds have air along their far
+// ground.
 
 // `up` of the horizon, of the sphere and without refraction.
 double horizon_up(double height);
@@ -29,8 +30,9 @@ struct AirStep {
     double distance;         // from the start to the middle, metres
     double radius, horizon;  // of the middle: to the Earth's centre, and horizon_up() there
     Cell sun_cell, diffuse_cell;
-    // Of light that falls on the step, what share of it reaches the start if it is scattered into the line: extinction up
-    // to the start and within the step included. Air and the even part of haze for diffuse light, haze for that of its lobe.
+    // Of light that falls on the step, what share of it reaches the start if it is scattered into the line: extinction
+    // up to the start and within the step included. Air and the even part of haze for diffuse light, haze for that of
+    // its lobe.
     Bands air, even_haze, haze;
     Densities columns;  // from the start to the end of the step
 };

@@ -12,9 +12,9 @@ namespace {
 
 // Air at sea level, 15 degrees C and 1013.25 hPa: molecules a cubic metre.
 constexpr double kMolecules = 2.5469e25;
-// Density of the U.S. Standard Atmosphere 1976: up to 11 km temperature falls evenly, above it hardly changes. The second
-// scale height is that of 11 to 20 km and serves up to the top: 6 % too thin at 40 km, 25 % at 50. One exponential from
-// the ground up would be 2.7 times too dense at 40 km, where the light of twilight comes from.
+// Density of the U.S. Standard Atmosphere 1976: up to 11 km temperature falls evenly, above it hardly changes. The
+// second scale height is that of 11 to 20 km and serves up to the top: 6 % too thin at 40 km, 25 % at 50. One
+// exponential from the ground up would be 2.7 times too dense at 40 km, where the light of twilight comes from.
 constexpr double kLapse = 2.25577e-5;  // 6.5 K/km / 288.15 K
 constexpr double kLapsePower = 4.25588;
 constexpr double kTropopause = 11e3;
@@ -25,9 +25,9 @@ constexpr double kOzoneMiddle = 25e3;
 constexpr double kOzoneReach = 15e3;
 constexpr double kDobsonMolecules = 2.6868e20;  // a square metre
 constexpr double kContrast = 3.912;             // -ln 0.02, Koschmieder
-// Chosen by paths followed at random with haze's true lobe, sun from 90 to -3 degrees and visibility 60 km: with 0.25, 0.5
-// and 1 the mean sky is within 4, 3 and 7 % of theirs, and the red horizon, where level rays cross much haze, within a fifth,
-// a quarter and the double of it.
+// Chosen by paths followed at random with haze's true lobe, sun from 90 to -3 degrees and visibility 60 km: with 0.25,
+// 0.5 and 1 the mean sky is within 4, 3 and 7 % of theirs, and the red horizon, where level rays cross much haze,
+// within a fifth, a quarter and the double of it.
 constexpr double kStraight = 0.5;
 constexpr double kVisible_nm = 550.0;
 
@@ -95,9 +95,7 @@ Densities Medium::densities(double height) const {
 }
 
 // Of unpolarised light, with the depolarisation of air (0.0279; Chandrasekhar's gamma 0.0141) left out: 1.4 % at most.
-double Medium::rayleigh_phase(double cosine) {
-    return 3.0 / (16.0 * std::numbers::pi) * (1.0 + cosine * cosine);
-}
+double Medium::rayleigh_phase(double cosine) { return 3.0 / (16.0 * std::numbers::pi) * (1.0 + cosine * cosine); }
 
 // Henyey and Greenstein (1941).
 double Medium::haze_phase(double cosine) const {

@@ -75,6 +75,7 @@ AerialPerspective Daylight::aerial(double height, const glm::dvec3& d, double di
 }
 
 AerialPerspective Daylight::aerial_from_observer(const glm::dvec3& d, double distance) const {
+    if (frame_.height > AerialTable::kHighest) return aerial(frame_.height, d, distance);
     return aerial_.at(light_.medium(), frame_.locate(d.x, d.y, d.z), distance);
 }
 

@@ -4,10 +4,10 @@
 // any thread. Then it is only read, by any number of threads.
 //
 // Units and axes. Metres; y up; unit directions, away from the observer. Colours are linear Rec.709 whose luminance
-// 0.2126 R + 0.7152 G + 0.0722 B is in cd/m^2 for radiance and in lux for irradiance: a surface of reflectance rho shows
-// rho * irradiance / pi. White is D65, so a high sun is a little warm and a shadow under open sky is blue. Of the sun
-// come up to 130 000 lux, and of a clear sky some 10 000 beside it; twilight at -6 degrees is 1e5 times darker, so an
-// exposure belongs to the scene.
+// 0.2126 R + 0.7152 G + 0.0722 B is in cd/m^2 for radiance and in lux for irradiance: a surface of reflectance rho
+// shows rho * irradiance / pi. White is D65, so a high sun is a little warm and a shadow under open sky is blue. Of the
+// sun come up to 130 000 lux, and of a clear sky some 10 000 beside it; twilight at -6 degrees is 1e5 times darker, so
+// an exposure belongs to the scene.
 //
 // Left out: refraction (a sun on the horizon stands half a degree too low, the horizon a third of a degree), clouds,
 // polarisation, the moon and stars. Below about 8 degrees under the horizon the twilight is guesswork.
@@ -39,8 +39,8 @@ struct ColourBatch {
 
 class Daylight {
   public:
-    // `sun_direction` is a unit vector towards the sun's middle, `observer_height` in metres above the sphere, which is sea
-    // level. Throws std::invalid_argument for a value out of range: heights from -1000 (taken as 0) to 100 000 m.
+    // `sun_direction` is a unit vector towards the sun's middle, `observer_height` in metres above the sphere, which is
+    // sea level. Throws std::invalid_argument for a value out of range: heights from -1000 (taken as 0) to 100 000 m.
     Daylight(const Atmosphere& atmosphere, const glm::dvec3& sun_direction, double observer_height);
 
     // The sky as the observer sees it, without the sun's disc; below the horizon the lit sphere through the air.
@@ -53,11 +53,12 @@ class Daylight {
     // Mean radiance of the disc, whose radius is kSunRadius: illuminance / kSunSolidAngle.
     glm::dvec3 sun_radiance(double height) const { return sun_illuminance(height) / kSunSolidAngle; }
 
-    // The air along `distance` metres, which may be infinite, from any height: the integral, for single rays. At distance
-    // 0 exactly {1, 0}; for a line that meets no ground {0, sky} in the end.
+    // The air along `distance` metres, which may be infinite, from any height: the integral, for single rays. At
+    // distance 0 exactly {1, 0}; for a line that meets no ground {0, sky} in the end.
     AerialPerspective aerial(double height, const glm::dvec3& direction, double distance) const;
 
-    // The same from the observer, by a table: fast, for each sample.
+    // The same from the observer, for each sample: by a table, 50 ns, up to AerialTable::kHighest, above it the
+    // integral.
     AerialPerspective aerial_from_observer(const glm::dvec3& direction, double distance) const;
     void aerial_from_observer(const DirectionBatch& directions, std::span<const float> distances,
                               const ColourBatch& transmittance, const ColourBatch& inscatter) const;

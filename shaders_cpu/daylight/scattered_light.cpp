@@ -9,9 +9,9 @@
 namespace strata::shaders {
 namespace {
 
-constexpr int kHeights = 24;      // as the square of their number
-constexpr int kSunsBelow = 32;    // even in `up`, since twilight falls by e in one or two degrees
-constexpr int kSunsAbove = 20;    // as the square
+constexpr int kHeights = 24;    // as the square of their number
+constexpr int kSunsBelow = 32;  // even in `up`, since twilight falls by e in one or two degrees
+constexpr int kSunsAbove = 20;  // as the square
 constexpr int kSuns = kSunsBelow + kSunsAbove + 1;
 constexpr double kDarkUp = -0.3;  // 17 degrees below the horizon: no light
 constexpr int kAzimuths = 6;
@@ -54,7 +54,8 @@ glm::vec4 at(const std::vector<glm::vec4>& row, double sun_up) {
 
 }  // namespace
 
-// Gathers, at one height and from one cone of directions, the light of one order that is scattered once more on its way.
+// Gathers, at one height and from one cone of directions, the light of one order that is scattered once more on its
+// way.
 class ScatteredLight::Gatherer {
   public:
     Gatherer(const Medium& medium, double height, double up)
@@ -70,8 +71,9 @@ class ScatteredLight::Gatherer {
             constexpr double kEven = 1.0 / (4.0 * std::numbers::pi);
             Bands light(0.0);
             for (const AirStep& step : path_.steps())
-                light += (step.air * rayleigh + step.even_haze * kEven) *
-                         sun.at(step.sun_cell, step.horizon, local_up(sun_up, cosine, step.distance, step.radius)).diffuse;
+                light +=
+                    (step.air * rayleigh + step.even_haze * kEven) *
+                    sun.at(step.sun_cell, step.horizon, local_up(sun_up, cosine, step.distance, step.radius)).diffuse;
             if (meets_ground_) {
                 const double ground_up = local_up(sun_up, cosine, path_.length(), kEarthRadius);
                 light += of_ground(sun.at({0, 0.0f}, 0.0, ground_up).diffuse * std::max(0.0, ground_up));
@@ -153,8 +155,8 @@ ScatteredLight::ScatteredLight(const Medium& medium, const SunTable& sun, int or
                 Gatherer gatherer(medium, height_of(i), up);
                 if (order > 1) gatherer.prepare(before);
                 for (int s = 0; s < kSuns; ++s) {
-                    const glm::vec4 radiance = order == 1 ? gatherer.sunlight(sun, sun_up_of(s))
-                                                          : gatherer.scattered(before, sun_up_of(s));
+                    const glm::vec4 radiance =
+                        order == 1 ? gatherer.sunlight(sun, sun_up_of(s)) : gatherer.scattered(before, sun_up_of(s));
                     now.mean[i][s] += radiance * static_cast<float>(share);
                     if (i == 0 && k < 8)
                         now.ground[s] += radiance * static_cast<float>(share * 4.0 * std::numbers::pi * up);

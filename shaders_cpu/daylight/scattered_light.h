@@ -8,10 +8,10 @@
 
 namespace strata::shaders {
 
-// Mean radiance over all directions, and irradiance of level ground at the sphere's surface, by the height and the sun's
-// `up`. The first scattering is by direction, all later ones and the ground send light everywhere evenly; nothing else is
-// approximated: each order is the integral of the one before over the shell, which matters at twilight, when a point's
-// surroundings are lit quite differently from itself.
+// Mean radiance over all directions, and irradiance of level ground at the sphere's surface, by the height and the
+// sun's `up`. The first scattering is by direction, all later ones and the ground send light everywhere evenly; nothing
+// else is approximated: each order is the integral of the one before over the shell, which matters at twilight, when a
+// point's surroundings are lit quite differently from itself.
 class ScatteredLight {
   public:
     // What follows the last of `orders` scatterings is added as a geometric series, or left out.

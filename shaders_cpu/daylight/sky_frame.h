@@ -14,8 +14,8 @@ struct SkyDirection {
 
 // The light that one observer sees.
 struct SkyFrame {
-    glm::dvec3 sun;  // unit, y up
-    double height;   // metres
+    glm::dvec3 sun;                       // unit, y up
+    double height;                        // metres
     double level_x = 1.0, level_z = 0.0;  // of the sun's azimuth; any for a sun overhead
 
     SkyFrame(const glm::dvec3& sun_direction, double observer_height) : sun(sun_direction), height(observer_height) {

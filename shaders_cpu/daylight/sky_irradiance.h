@@ -7,8 +7,8 @@
 
 namespace strata::shaders {
 
-// Real spherical harmonics up to the second degree of a radiance, times the cosine lobe's (Ramamoorthi and Hanrahan 2001:
-// pi, 2 pi / 3, pi / 4 by degree): what is left out is a few per cent of the irradiance.
+// Real spherical harmonics up to the second degree of a radiance, times the cosine lobe's (Ramamoorthi and Hanrahan
+// 2001: pi, 2 pi / 3, pi / 4 by degree): what is left out is a few per cent of the irradiance.
 class SkyIrradiance {
   public:
     // Of radiance(x, y, z) between two values of y.

@@ -26,7 +26,8 @@ struct Found {
 };
 
 Found find(const double* cumulated, int count, double u) {
-    const int index = std::min(static_cast<int>(std::upper_bound(cumulated, cumulated + count, u) - cumulated), count - 1);
+    const int index =
+        std::min(static_cast<int>(std::upper_bound(cumulated, cumulated + count, u) - cumulated), count - 1);
     const double from = index > 0 ? cumulated[index - 1] : 0.0;
     return {index, std::clamp((u - from) / (cumulated[index] - from), 0.0, 1.0)};
 }

@@ -9,8 +9,8 @@
 
 namespace strata::shaders {
 
-// Split at the horizon, where the sky jumps to the ground, and finest there; linear in the cosine of the azimuth from the
-// sun, in which an even and smooth function of the azimuth is smooth.
+// Split at the horizon, where the sky jumps to the ground, and finest there; linear in the cosine of the azimuth from
+// the sun, in which an even and smooth function of the azimuth is smooth.
 class SkyTable {
   public:
     SkyTable(const AirLight& light, const SkyFrame& frame);

@@ -2,9 +2,9 @@
 
 namespace strata::shaders {
 
-// Each band's share in the three channels, in lux. Least squares of relative error in X, Y and Z over the 480 spectra of
-// the header: 683 lm/W times the CIE 1931 observer times the sun outside the atmosphere (ASTM G173), on the condition
-// that the unchanged sun comes out exactly: 132 540 lux; then the matrix of IEC 61966-2-1.
+// Each band's share in the three channels, in lux. Least squares of relative error in X, Y and Z over the 480 spectra
+// of the header: 683 lm/W times the CIE 1931 observer times the sun outside the atmosphere (ASTM G173), on the
+// condition that the unchanged sun comes out exactly: 132 540 lux; then the matrix of IEC 61966-2-1.
 glm::dvec3 to_rgb(const Bands& light) {
     return glm::dvec3(121857.7, -5330.8, -2292.3) * light[0] + glm::dvec3(74412.2, 97521.6, -16678.7) * light[1] +
            glm::dvec3(-73929.2, 54254.3, 62426.9) * light[2] + glm::dvec3(22400.4, -16974.5, 83581.0) * light[3];

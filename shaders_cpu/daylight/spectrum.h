@@ -2,16 +2,17 @@
 //
 // Three bands turn a low sun's sky green: extinction by air grows as wavelength^-4, and a mean over a third of the
 // spectrum does not decay as any one wavelength in it does. Four, at 630, 560, 490 and 430 nm, do not: over 480 spectra
-// - air masses 0 to 35, aerosol depths 0 to 1, up to 25 times the usual ozone, direct or scattered light - the colour that
-// to_rgb() gives is within 0.0072 in (u',v') of the one that integrals every 10 nm give, and the luminance within 1.4 %.
+// - air masses 0 to 35, aerosol depths 0 to 1, up to 25 times the usual ozone, direct or scattered light - the colour
+// that to_rgb() gives is within 0.0072 in (u',v') of the one that integrals every 10 nm give, and the luminance
+// within 1.4 %.
 #pragma once
 
 #include <glm/glm.hpp>
 
 namespace strata::shaders {
 
-// A value at each of kBand_nm. Light is given relative to the sunlight outside the atmosphere in the same band: 1 is the
-// irradiance of a plane that faces the sun there, so radiance is in 1/sr.
+// A value at each of kBand_nm. Light is given relative to the sunlight outside the atmosphere in the same band: 1 is
+// the irradiance of a plane that faces the sun there, so radiance is in 1/sr.
 using Bands = glm::dvec4;
 
 inline constexpr double kBand_nm[4] = {630.0, 560.0, 490.0, 430.0};

@@ -15,7 +15,8 @@ double height_of(int i) {
     return kAirTop * x * x * x * x;
 }
 
-// What shows of a unit disc whose middle is `a` above the horizon: its share, and its centroid's height above the middle.
+// What shows of a unit disc whose middle is `a` above the horizon: its share, and its centroid's height above the
+// middle.
 struct Visible {
     double share, centroid;
 };

@@ -13,8 +13,8 @@ struct Sunlight {
     Bands full, diffuse;
 };
 
-// At `height`, with the middle of the sun at `sun_up`, the cosine to the vertical. The disc sets gradually: what shows of
-// it above the sphere's horizon shines through the air as its centroid does.
+// At `height`, with the middle of the sun at `sun_up`, the cosine to the vertical. The disc sets gradually: what shows
+// of it above the sphere's horizon shines through the air as its centroid does.
 Sunlight sunlight(const Medium& medium, double height, double sun_up);
 
 // The same, tabulated.

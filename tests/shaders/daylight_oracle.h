@@ -1,6 +1,6 @@
-// Skylight by brute force, in double and one band at a time: rays in Cartesian coordinates about the Earth's centre, small
-// steps, no table but the sun's optical depth, no split of directions or of haze. Shares nothing with shaders_cpu/daylight
-// but the meaning of its parameters; coefficients are computed anew from the sources named there.
+// Skylight by brute force, in double and one band at a time: rays in Cartesian coordinates about the Earth's centre,
+// small steps, no table but the sun's optical depth, no split of directions or of haze. Shares nothing with
+// shaders_cpu/daylight but the meaning of its parameters; coefficients are computed anew from the sources named there.
 #pragma once
 
 #include <algorithm>
@@ -131,29 +131,31 @@ class Oracle {
     // Scattered once, and reflected by the ground but not scattered.
     double single(const glm::dvec3& p, const glm::dvec3& d, double fineness) const {
         const double cosine = glm::dot(d, sun_);
-        return along(p, d, fineness, [&](const glm::dvec3& q, double h) { return air_.scattering(h, cosine) * sunlight(q); },
-                     [&](const glm::dvec3& q) { return ground(q); });
+        return along(
+            p, d, fineness, [&](const glm::dvec3& q, double h) { return air_.scattering(h, cosine) * sunlight(q); },
+            [&](const glm::dvec3& q) { return ground(q); });
     }
 
     // Scattered or reflected twice, but for light from ground to ground.
     double second(const glm::dvec3& p, const glm::dvec3& d) const {
-        return along(p, d, 0.25,
-                     [&](const glm::dvec3& q, double h) {
-                         double sum = 0.0;
-                         each_direction(q, [&](const glm::dvec3& from, double solid_angle) {
-                             sum += air_.scattering(h, glm::dot(d, from)) * single(q, from, 0.3) * solid_angle;
-                         });
-                         return sum;
-                     },
-                     [&](const glm::dvec3& q) {
-                         double sum = 0.0;
-                         const glm::dvec3 up = glm::normalize(q);
-                         each_direction(q, [&](const glm::dvec3& from, double solid_angle) {
-                             const double cosine = glm::dot(from, up);
-                             if (cosine > 0.0) sum += cosine * single(q, from, 0.3) * solid_angle;
-                         });
-                         return sum * air_.albedo / kPi;
-                     });
+        return along(
+            p, d, 0.25,
+            [&](const glm::dvec3& q, double h) {
+                double sum = 0.0;
+                each_direction(q, [&](const glm::dvec3& from, double solid_angle) {
+                    sum += air_.scattering(h, glm::dot(d, from)) * single(q, from, 0.3) * solid_angle;
+                });
+                return sum;
+            },
+            [&](const glm::dvec3& q) {
+                double sum = 0.0;
+                const glm::dvec3 up = glm::normalize(q);
+                each_direction(q, [&](const glm::dvec3& from, double solid_angle) {
+                    const double cosine = glm::dot(from, up);
+                    if (cosine > 0.0) sum += cosine * single(q, from, 0.3) * solid_angle;
+                });
+                return sum * air_.albedo / kPi;
+            });
     }
 
     // All orders by paths followed backwards; each scattering asks the sun. Mean and its standard error.
@@ -183,7 +185,8 @@ class Oracle {
     }
 
     template <class Source, class Ground>
-    double along(const glm::dvec3& p, const glm::dvec3& d, double fineness, const Source& source, const Ground& end) const {
+    double along(const glm::dvec3& p, const glm::dvec3& d, double fineness, const Source& source,
+                 const Ground& end) const {
         double depth = 0.0, light = 0.0;
         glm::dvec3 last = p;
         const bool ground = walk(p, d, fineness, [&](const glm::dvec3& q, double step) {
@@ -200,7 +203,8 @@ class Oracle {
     template <class Use>
     void each_direction(const glm::dvec3& q, const Use& use) const {
         const glm::dvec3 up = glm::normalize(q);
-        const glm::dvec3 side = glm::normalize(glm::cross(up, std::fabs(up.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1)));
+        const glm::dvec3 side =
+            glm::normalize(glm::cross(up, std::fabs(up.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1)));
         const glm::dvec3 ahead = glm::cross(side, up);
         const double level = horizon(glm::length(q));
         constexpr int kRings = 8, kAround = 14;
@@ -218,7 +222,8 @@ class Oracle {
     }
 
     static glm::dvec3 turned(const glm::dvec3& axis, double cosine, double turn) {
-        const glm::dvec3 side = glm::normalize(glm::cross(axis, std::fabs(axis.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1)));
+        const glm::dvec3 side =
+            glm::normalize(glm::cross(axis, std::fabs(axis.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1)));
         const double s = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
         return axis * cosine + (side * std::cos(turn) + glm::cross(axis, side) * std::sin(turn)) * s;
     }
@@ -237,7 +242,8 @@ class Oracle {
                 const double stretch = std::min(end - t, 8e3);
                 const double low = std::clamp(-glm::dot(p + d * t, d), 0.0, stretch);
                 // Ozone, thickest at 25 km, adds its most.
-                const double majorant = air_.extinction(std::max(0.0, glm::length(p + d * (t + low)) - kEarth)) + air_.ozone;
+                const double majorant =
+                    air_.extinction(std::max(0.0, glm::length(p + d * (t + low)) - kEarth)) + air_.ozone;
                 const double flight = -std::log(1.0 - unit(random)) / majorant;
                 if (flight > stretch) {
                     t += stretch;

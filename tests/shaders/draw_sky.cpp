@@ -1,8 +1,8 @@
 // draw_sky OUT.png VISIBILITY_M HEIGHT_M ELEVATION_DEG...
 //
-// A contact sheet to judge a Daylight by: a row for each elevation of the sun, each with an exposure of its own. Left the
-// upper half of the sky as a fisheye, the sun's azimuth up; right half a turn of panorama about the sun, from 10 degrees
-// below to 40 above the horizon, with ridges of dark forest 2 to 120 km away, seen through the air.
+// A contact sheet to judge a Daylight by: a row for each elevation of the sun, each with an exposure of its own. Left
+// the upper half of the sky as a fisheye, the sun's azimuth up; right half a turn of panorama about the sun, from 10
+// degrees below to 40 above the horizon, with ridges of dark forest 2 to 120 km away, seen through the air.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -26,7 +26,8 @@ constexpr int kPanorama = 900;
 struct Ridge {
     double distance, height, phase;  // of its mean crest, from the observer's; metres
 };
-constexpr Ridge kRidges[] = {{2e3, -280, 0.3}, {5e3, -480, 1.7}, {12e3, -650, 3.9}, {28e3, -600, 0.9}, {60e3, 200, 5.1}, {120e3, 2200, 2.2}};
+constexpr Ridge kRidges[] = {{2e3, -280, 0.3},  {5e3, -480, 1.7}, {12e3, -650, 3.9},
+                             {28e3, -600, 0.9}, {60e3, 200, 5.1}, {120e3, 2200, 2.2}};
 
 glm::dvec3 direction_of(double elevation, double azimuth) {
     return {std::cos(elevation) * std::cos(azimuth), std::sin(elevation), std::cos(elevation) * std::sin(azimuth)};
@@ -36,7 +37,8 @@ glm::dvec3 direction_of(double elevation, double azimuth) {
 double crest(const Ridge& ridge, double azimuth) {
     double sum = 0.0;
     for (int k = 0; k < 7; ++k)
-        sum += std::sin(azimuth * (5.0 + 1.2 * ridge.phase) * std::pow(1.83, k) + ridge.phase * (k + 1)) * std::pow(0.55, k);
+        sum += std::sin(azimuth * (5.0 + 1.2 * ridge.phase) * std::pow(1.83, k) + ridge.phase * (k + 1)) *
+               std::pow(0.55, k);
     return ridge.height + 0.008 * ridge.distance * sum - ridge.distance * ridge.distance / (2.0 * kEarthRadius);
 }
 
@@ -63,8 +65,8 @@ void draw_row(const Daylight& daylight, image::Picture& sheet, int top) {
     double sum = 0.0;
     constexpr int kProbes = 30;
     for (int k = 0; k < kProbes * kProbes; ++k)
-        sum += std::log(luminance(daylight.sky_radiance(direction_of(
-            40.0 / 180.0 * kPi * (k / kProbes + 0.5) / kProbes, kPi * ((k % kProbes + 0.5) / kProbes - 0.5)))));
+        sum += std::log(luminance(daylight.sky_radiance(direction_of(40.0 / 180.0 * kPi * (k / kProbes + 0.5) / kProbes,
+                                                                     kPi * ((k % kProbes + 0.5) / kProbes - 0.5)))));
     const double exposure = 0.6 * std::exp(-sum / (kProbes * kProbes));
     const auto put = [&](int x, int y, const glm::dvec3& radiance) {
         const glm::dvec3 shown = 1.0 - glm::exp(-radiance * exposure);
@@ -80,8 +82,8 @@ void draw_row(const Daylight& daylight, image::Picture& sheet, int top) {
                 put(x, y, daylight.sky_radiance(direction_of(kPi / 2 * (1.0 - radius), std::atan2(right, -down))));
         }
         for (int x = 0; x < kPanorama; ++x)
-            put(kSide + x, y, seen(daylight, (40.0 - 50.0 * (y + 0.5) / kSide) / 180.0 * kPi,
-                                   ((x + 0.5) / kPanorama - 0.5) * kPi));
+            put(kSide + x, y,
+                seen(daylight, (40.0 - 50.0 * (y + 0.5) / kSide) / 180.0 * kPi, ((x + 0.5) / kPanorama - 0.5) * kPi));
     }
 }
 
