@@ -22,7 +22,7 @@ struct AirRadiance {
 class AirLight {
   public:
     static constexpr int kOrders = 4;
-    static constexpr int kPathSteps = 48;
+    static constexpr int kPathSteps = 64;
 
     explicit AirLight(const Atmosphere& atmosphere, int scattered_orders = kOrders,
                       ScatteredLight::Rest rest = ScatteredLight::Rest::kSeries);

@@ -65,14 +65,18 @@ double distance_to_end(double height, double up) {
 }
 
 Densities columns_to_top(const Medium& medium, double height, double up) {
-    constexpr int kSteps = 40;
+    constexpr int kSteps = 28;
+    constexpr double kGauss = 0.57735026918962576;  // 1 / sqrt(3): two points a step
     const double r = kEarthRadius + height;
     Densities sum{0.0, 0.0, 0.0};
     each_step(-r * up, distance_to_end(height, up), kSteps, [&](double from, double to) {
-        const Densities here = medium.densities(radius_at(r, up, 0.5 * (from + to)) - kEarthRadius);
-        sum.air += here.air * (to - from);
-        sum.haze += here.haze * (to - from);
-        sum.ozone += here.ozone * (to - from);
+        const double half = 0.5 * (to - from);
+        for (const double point : {0.5 * (from + to) - kGauss * half, 0.5 * (from + to) + kGauss * half}) {
+            const Densities here = medium.densities(radius_at(r, up, point) - kEarthRadius);
+            sum.air += here.air * half;
+            sum.haze += here.haze * half;
+            sum.ozone += here.ozone * half;
+        }
     });
     return sum;
 }

@@ -100,7 +100,7 @@ class Oracle {
         const double r = glm::length(p);
         const double up = std::clamp(glm::dot(p, sun_) / r, -1.0, 1.0);
         const double radius = 0.2666 * kPi / 180.0;
-        if (up > horizon(r) + 2.0 * radius) return point_light(r, up);
+        if (up > horizon(r) + 8.0 * radius) return point_light(r, up);
         constexpr int kStrips = 12;
         double sum = 0.0, weights = 0.0;
         for (int k = 0; k < kStrips; ++k) {
