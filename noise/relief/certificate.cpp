@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "noise/relief/frame.h"
 #include "noise/relief/nodes/all.h"
+#include "noise/relief/stripe.h"
 
 namespace strata::noise {
 
@@ -70,6 +72,45 @@ class BoundNumbers : public ReliefFrame {
             bend += u[i].bend * u[i].bend;
         }
         return {at.slope + std::sqrt(slope), at.bend + std::sqrt(bend)};
+    }
+
+    static Domain shifted(const Domain& at, int, double) { return at; }
+
+    using Pair = std::pair<Number, Number>;
+
+    static Pair unit(const Number& x, const Number& y, double c) {
+        const double slope = std::hypot(x.slope, y.slope), bend = std::hypot(x.bend, y.bend);
+        const Number either{-1.0, 1.0, slope / c, bend / c + kUnitBend / (c * c) * slope * slope};
+        return {either, either};
+    }
+    static Number norm(const Number& x, const Number& y, double c) {
+        const double slope = std::hypot(x.slope, y.slope);
+        return {0.0, std::hypot(x.size(), y.size()), slope, std::hypot(x.bend, y.bend) + slope * slope / c};
+    }
+    // A share in [0, 1].
+    static Number part_of(const Number& whole, const Number& share) {
+        Number part = product(whole, share);
+        part.low = std::max(part.low, std::min(whole.low, 0.0));
+        part.high = std::min(part.high, whole.high);
+        return part;
+    }
+
+    // By u = x^2 + z^2 of the scaled coordinates 1 / (1 + u)^2 falls by 4 sqrt(u) / (1 + u)^3 <= 1.08 along the radius,
+    // and the second derivative is at most 4, at the middle.
+    static Number fall_off(const Domain& at, double, double, double per_x, double per_z) {
+        const double per = std::max(per_x, per_z), across = per * at.slope;
+        return {0.0, 1.0, 1.08 * across, 4.0 * across * across + 1.08 * per * at.bend};
+    }
+
+    Pair stripe(std::size_t k, const Domain& at, const Number& dx, const Number& dz, double bands) const {
+        const StripeBounds of(bands);
+        const double frequency = part().octaves[k].frequency, across = frequency * at.slope;
+        const double turn = std::hypot(dx.slope, dz.slope), bend = std::hypot(dx.bend, dz.bend);
+        const Number either{-1.0, 1.0, of.by_place * across + of.by_direction * turn,
+                            of.place_twice * across * across + 2.0 * of.place_direction * across * turn +
+                                of.direction_twice * turn * turn + of.by_place * frequency * at.bend +
+                                of.by_direction * bend};
+        return {either, either};
     }
 
     Number input(std::size_t i, const Domain& at) const {

@@ -91,6 +91,66 @@ struct SoftClip {
     double steepest(double lo, double hi) const { return std::max(std::abs(slope(lo)), std::abs(slope(hi))); }
 };
 
+// 1 / (1 + u)^2, u >= 0: 1 at the middle of a mass and nothing far away. g' = -2 / (1 + u)^3, g'' = 6 / (1 + u)^4.
+struct FallOff {
+    template <class V>
+    HWY_INLINE V inverse(V u) const {
+        return fixed<V>(1.0) / (fixed<V>(1.0) + greatest(u, fixed<V>(0.0)));
+    }
+    template <class V>
+    HWY_INLINE V value(V u) const {
+        return inverse(u) * inverse(u);
+    }
+    template <class V>
+    HWY_INLINE V slope(V u) const {
+        return fixed<V>(-2.0) * inverse(u) * inverse(u) * inverse(u);
+    }
+    template <class V>
+    HWY_INLINE V bend_up(V lo, V) const {
+        const V square = inverse(lo) * inverse(lo);
+        return fixed<V>(6.0) * square * square;
+    }
+    template <class V>
+    HWY_INLINE V bend_down(V, V) const {
+        return fixed<V>(0.0);
+    }
+    std::pair<double, double> range(double lo, double hi) const { return {value(hi), value(lo)}; }
+    double steepest(double lo, double) const { return std::abs(slope(lo)); }
+};
+
+// f + (d + sqrt(d^2 + s^2)) / 2 with d = v - f: what lies deeper than the floor f is filled up to it, softly over s.
+// g' rises from 0 to 1, g'' = s^2 / (2 (d^2 + s^2)^(3/2)) is largest at the floor.
+struct FillCurve {
+    double floor, softness;
+
+    template <class V>
+    HWY_INLINE V distance(V v) const {
+        const V d = v - fixed<V>(floor);
+        return root(d * d + fixed<V>(softness * softness));
+    }
+    template <class V>
+    HWY_INLINE V value(V v) const {
+        return fixed<V>(floor) + fixed<V>(0.5) * (v - fixed<V>(floor) + distance(v));
+    }
+    template <class V>
+    HWY_INLINE V slope(V v) const {
+        return fixed<V>(0.5) + fixed<V>(0.5) * (v - fixed<V>(floor)) / distance(v);
+    }
+    template <class V>
+    HWY_INLINE V bend_up(V lo, V hi) const {
+        const V f = fixed<V>(floor);
+        const V nearest = f + greatest(greatest(lo - f, f - hi), fixed<V>(0.0));
+        const V r = distance(nearest);
+        return fixed<V>(0.5 * softness * softness) / (r * r * r);
+    }
+    template <class V>
+    HWY_INLINE V bend_down(V, V) const {
+        return fixed<V>(0.0);
+    }
+    std::pair<double, double> range(double lo, double hi) const { return {value(lo), value(hi)}; }
+    double steepest(double, double hi) const { return slope(hi); }
+};
+
 }  // namespace strata::noise::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -16,6 +16,7 @@ class ReliefFrame {
     std::size_t inputs() const { return part_->inputs.size(); }
     std::size_t dimensions() const { return static_cast<std::size_t>(dimensions_); }
     double amplitude(std::size_t k) const { return part_->octaves[k].amplitude; }
+    double frequency(std::size_t k) const { return part_->octaves[k].frequency; }
     double amplitude_from(std::size_t k) const { return part_->amplitude_from[k]; }
 
     // The largest value of an octave's noise.

@@ -1,7 +1,9 @@
 #include "noise/relief/relief.h"
 
 #include <algorithm>
+#include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #define STRATA_RELIEF_FORMULAS
 #include <hwy/highway.h>
@@ -9,6 +11,7 @@
 #include "noise/reference.h"
 #include "noise/relief/frame.h"
 #include "noise/relief/nodes/all.h"
+#include "noise/relief/stripe.h"
 
 namespace strata::noise {
 
@@ -69,6 +72,59 @@ class JetNumbers : public ReliefFrame {
         return there;
     }
 
+    Domain shifted(const Domain& at, int i, double by) const {
+        Domain there = at;
+        there.at[is_planar() ? 2 * i : i] += by;
+        return there;
+    }
+
+    using Pair = std::pair<Number, Number>;
+
+    // x / R and y / R, R = sqrt(x^2 + y^2 + c^2).
+    static Pair unit(const Number& x, const Number& y, double c) {
+        const double r = std::sqrt(x.value * x.value + y.value * y.value + c * c);
+        const glm::dvec3 turn = (x.value * x.gradient + y.value * y.gradient) / (r * r);
+        return {{x.value / r, x.gradient / r - x.value / r * turn}, {y.value / r, y.gradient / r - y.value / r * turn}};
+    }
+    static Number norm(const Number& x, const Number& y, double c) {
+        const double r = std::sqrt(x.value * x.value + y.value * y.value + c * c);
+        return {r - c, (x.value * x.gradient + y.value * y.gradient) / r};
+    }
+    static Number part_of(const Number& whole, const Number& share) { return product(whole, share); }
+
+    Number fall_off(const Domain& at, double x, double z, double per_x, double per_z) const {
+        const double u = (at.at.x - x) * per_x, v = (at.at.z - z) * per_z, one = 1.0 + u * u + v * v;
+        const glm::dvec3 there = -4.0 / (one * one * one) * glm::dvec3(u * per_x, 0.0, v * per_z);
+        return {1.0 / (one * one), there * at.jacobian};
+    }
+
+    Pair stripe(std::size_t k, const Domain& at, const Number& dx, const Number& dz, double bands) const {
+        const Octave& octave = part().octaves[k];
+        const auto p = split_position<2>(octave_position<2>(octave, {at.at.x, at.at.z}));
+        const auto fade = [](double t) { return t * t * t * (t * (6.0 * t - 15.0) + 10.0); };
+        const auto fade_slope = [](double t) { return 30.0 * t * t * (t - 1.0) * (t - 1.0); };
+        const double u = fade(p.fraction[0]), v = fade(p.fraction[1]);
+        const double du = fade_slope(p.fraction[0]), dv = fade_slope(p.fraction[1]);
+        const double wave = StripeBounds(bands).wave;
+        Number c, s;
+        for (unsigned corner = 0; corner < 4; ++corner) {
+            const bool right = (corner & 1) != 0, up = (corner & 2) != 0;
+            const double tx = p.fraction[0] - right, tz = p.fraction[1] - up;
+            const double angle =
+                wave * (dx.value * tx + dz.value * tz) + 2.0 * std::numbers::pi * phase_of(octave, p.cell, right, up);
+            const double wx = right ? u : 1.0 - u, wz = up ? v : 1.0 - v, w = wx * wz;
+            const double cosine = std::cos(angle), sine = std::sin(angle);
+            const glm::dvec3 weight = octave.frequency * glm::dvec3((right ? du : -du) * wz, 0.0, (up ? dv : -dv) * wx);
+            const glm::dvec3 place = octave.frequency * glm::dvec3(dx.value, 0.0, dz.value);
+            const glm::dvec3 turn = wave * (place * at.jacobian + tx * dx.gradient + tz * dz.gradient);
+            c.value += w * cosine;
+            s.value += w * sine;
+            c.gradient += cosine * (weight * at.jacobian) - w * sine * turn;
+            s.gradient += sine * (weight * at.jacobian) + w * cosine * turn;
+        }
+        return {c, s};
+    }
+
     Number input(std::size_t i, const Domain& at) const { return of(parts_, part().inputs[i], dimensions_of(), at); }
 
     static Number of(std::span<const ReliefPart> parts, std::size_t index, int dimensions, const Domain& at) {
@@ -78,6 +134,12 @@ class JetNumbers : public ReliefFrame {
     }
 
   private:
+    static double phase_of(const Octave& octave, const std::array<std::int64_t, 2>& cell, bool right, bool up) {
+        const std::uint32_t word = plane_pair(cell[0], octave.key.axis[0])[right ? 1 : 0] ^
+                                   plane_pair(cell[1], octave.key.axis[1])[up ? 1 : 0];
+        return static_cast<double>(corner_hash(word) >> kPhaseShift) * kPhaseUnit;
+    }
+
     int dimensions_of() const { return static_cast<int>(dimensions()); }
 
     std::span<const ReliefPart> parts_;
@@ -136,6 +198,17 @@ double Relief::finest_frequency() const {
         }
     }
     return finest;
+}
+
+double Relief::coarsest_frequency() const {
+    double coarsest = 0.0;
+    for (const ReliefPart& part : parts_) {
+        for (const Octave& octave : part.octaves) {
+            if (octave.amplitude == 0.0) continue;
+            coarsest = coarsest == 0.0 ? octave.frequency : std::min(coarsest, octave.frequency);
+        }
+    }
+    return coarsest == 0.0 ? 1.0 : coarsest;
 }
 
 }  // namespace strata::noise

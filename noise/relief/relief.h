@@ -60,6 +60,9 @@ class Relief {
     // The highest frequency of its octaves, in lattice cells a unit.
     double finest_frequency() const;
 
+    // The lowest one; 1 where there are no octaves.
+    double coarsest_frequency() const;
+
   private:
     int dimensions_;
     std::vector<ReliefPart> parts_;

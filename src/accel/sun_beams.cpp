@@ -33,6 +33,7 @@ glm::dvec3 across(const glm::dvec3& direction) {
 
 // The coarsest cells are as wide as the coarsest octave's lattice: wider beams would hardly come down at all.
 double coarsest_side(const trace::Field& field) {
+    if (field.relief() != nullptr) return 1.0 / field.relief()->coarsest_frequency();
     return field.octaves().empty() ? 1.0 : 1.0 / field.octaves().front().frequency;
 }
 
@@ -57,7 +58,7 @@ SunBeams::SunBeams(const trace::Field& field, const glm::dvec3& to_sun, const gl
     const double ball = bounding_ball(field);
     const bool is_bounded = std::isfinite(ball);
     bounding_ball_ = is_bounded ? ball : 0.0;
-    usable_ = !field.octaves().empty() && (is_bounded || to_sun.y > kLeastRise);
+    usable_ = field.evaluations() > 0 && (is_bounded || to_sun.y > kLeastRise);
 }
 
 int SunBeams::level_of(double spacing) const {

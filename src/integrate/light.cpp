@@ -38,7 +38,21 @@ void make_shadow_rays(const SurfaceSetup& setup, SurfaceChunk& chunk) {
     }
 }
 
+// The same ground under daylight.
+glm::vec3 shade_by_daylight(const SurfaceSetup& setup, const SurfaceChunk& chunk, std::size_t i) {
+    const glm::dvec3 normal(chunk.normal[i]);
+    const double height = chunk.x[i].y;
+    const auto facing = static_cast<float>(std::max(glm::dot(normal, chunk.sun_of_hit(i)), 0.0)) * chunk.visibility[i];
+    const glm::vec3 light = setup.daylight->sun_on_white(height) * facing + setup.daylight->sky_on_white(normal);
+    return setup.shader.albedo(height, normal.y) * light;
+}
+
+glm::vec3 sky_seen(const SurfaceSetup& setup, const glm::dvec3& direction) {
+    return setup.daylight ? setup.daylight->sky(direction) : shaders::sky_radiance(setup.scene.sky, direction);
+}
+
 glm::vec3 shade_hit(const SurfaceSetup& setup, const SurfaceChunk& chunk, std::size_t i) {
+    if (setup.daylight) return shade_by_daylight(setup, chunk, i);
     const glm::dvec3 normal(chunk.normal[i]);
     const bool is_planet = setup.scene.surface.kind == scene::SurfaceKind::planet;
     const glm::dvec3& x = chunk.x[i];
@@ -82,8 +96,7 @@ void shade(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counters) {
     chunk.radiance.resize(chunk.rays.size());
     for (std::size_t i = 0; i < chunk.rays.size(); ++i) {
         const trace::HitState state = chunk.hits[i].state;
-        if (state == trace::HitState::miss)
-            chunk.radiance[i] = shaders::sky_radiance(setup.scene.sky, chunk.view_of(i));
+        if (state == trace::HitState::miss) chunk.radiance[i] = sky_seen(setup, chunk.view_of(i));
         if (state == trace::HitState::unresolved) chunk.radiance[i] = kUnresolvedRadiance;
     }
     for (std::size_t i = 0; i < chunk.sample.size(); ++i) chunk.radiance[chunk.sample[i]] = shade_hit(setup, chunk, i);

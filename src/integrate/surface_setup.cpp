@@ -15,7 +15,14 @@ SurfaceSetup::SurfaceSetup(const scene::Scene& picture, Tracer used_tracer, std:
       path(scene.camera),
       camera(path.at(0.0), scene.film),
       sun_direction(glm::normalize(scene.sun.direction)),
-      has_shadows(scene::needs_shadow_rays(scene.sun)) {
+      has_shadows(scene::needs_shadow_rays(scene)) {
+    if (scene.sky.model == scene::SkyModel::daylight) {
+        const scene::TimeSpan open = scene::open_shutter(scene);
+        const double middle = 0.5 * (open.first + open.last);
+        const glm::dmat3 axes = placement.resting_orientation();
+        daylight.emplace(scene, trace::Placement::direction_to_local(axes, sun_direction),
+                         placement.point_to_local(axes, path.at(middle).position));
+    }
     if (tracer != Tracer::fast) return;
     screen_beams.emplace(scene, path, placement, field);
     if (!has_shadows) return;

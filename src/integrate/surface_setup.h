@@ -6,6 +6,7 @@
 #include "shaders_cpu/terrain_material.h"
 #include "src/accel/screen_beams.h"
 #include "src/accel/sun_beams.h"
+#include "src/integrate/daylight_scene.h"
 #include "src/scene/camera_path.h"
 #include "src/scene/scene.h"
 #include "src/trace/camera.h"
@@ -36,6 +37,7 @@ struct SurfaceSetup {
     std::optional<accel::SunBeams> sun_beams;        // none where they would not serve, or nothing casts shadows
     glm::dvec3 sun_direction;                        // in the world, of unit length
     bool has_shadows;
+    std::optional<DaylightScene> daylight;  // in place of the chosen lights of `shader` and scene.sky
 };
 
 }  // namespace strata::integrate

@@ -30,6 +30,9 @@ template <>
 inline constexpr std::array<std::string_view, 2> kEnumNames<Interpolation>{"smooth", "linear"};
 
 template <>
+inline constexpr std::array<std::string_view, 2> kEnumNames<SkyModel>{"gradient", "daylight"};
+
+template <>
 inline constexpr std::array<std::string_view, 9> kEnumNames<EstimatorKind>{
     "none", "super", "uniform", "jittered", "stratified", "random", "sobol", "shared", "shared-sobol"};
 
@@ -37,6 +40,7 @@ static_assert(static_cast<std::size_t>(ImageKind::constant) + 1 == kEnumNames<Im
 static_assert(static_cast<std::size_t>(SurfaceKind::isosurface) + 1 == kEnumNames<SurfaceKind>.size());
 static_assert(static_cast<std::size_t>(BoundKind::box) + 1 == kEnumNames<BoundKind>.size());
 static_assert(static_cast<std::size_t>(Interpolation::linear) + 1 == kEnumNames<Interpolation>.size());
+static_assert(static_cast<std::size_t>(SkyModel::daylight) + 1 == kEnumNames<SkyModel>.size());
 static_assert(static_cast<std::size_t>(EstimatorKind::shared_sobol) + 1 == kEnumNames<EstimatorKind>.size());
 
 template <class E>

@@ -167,20 +167,38 @@ Section surface_section(Surface& surface, bool matters) {
                                     "isosurface: a ball's radius in the first number, or a box's half sizes"))});
 }
 
-Section sun_section(Sun& sun, bool matters) {
-    return section("sun", "light from infinitely far", matters,
-                   {direction("direction", sun.direction, "towards the sun"),
-                    colour("colour", sun.colour, kLight, "colour of its light"),
-                    number("intensity", sun.intensity, kLight, "", "times colour is the light; 0: no sun"),
-                    flag("shadows", sun.shadows, "whether the surface shadows itself")});
+Section scale_section(Scale& scale, bool matters) {
+    return section(
+        "scale", "how large the scene is", matters,
+        {number("metres", scale.metres, kLength, "m", "metres in a surface unit, for what is told in metres")});
+}
+
+Section sun_section(Sun& sun, bool daylight, bool matters) {
+    return section(
+        "sun", "light from infinitely far", matters,
+        {direction("direction", sun.direction, "towards the sun"),
+         only_if(!daylight, colour("colour", sun.colour, kLight, "colour of its light")),
+         only_if(!daylight, number("intensity", sun.intensity, kLight, "", "times colour is the light; 0: no sun")),
+         flag("shadows", sun.shadows, "whether the surface shadows itself")});
 }
 
 Section sky_section(Sky& sky, bool matters) {
-    return section("sky", "what rays that miss see", matters,
-                   {colour("zenith", sky.zenith, kLight, "colour straight up"),
-                    colour("horizon", sky.horizon, kLight, "colour at the horizon, and of the haze"),
-                    number("haze_distance", sky.haze_distance, {0.0, 1e12}, "surface units",
-                           "distance over which 1 - 1/e of the light becomes horizon; 0: no haze")});
+    const bool daylight = sky.model == SkyModel::daylight;
+    return section(
+        "sky", "what rays that miss see", matters,
+        {choice("model", sky.model,
+                "gradient: two chosen colours; daylight: the Earth's air, which makes the sun's colour and the blue "
+                "of distance too, 1 being 25 000 cd/m2"),
+         only_if(!daylight, colour("zenith", sky.zenith, kLight, "colour straight up")),
+         only_if(!daylight, colour("horizon", sky.horizon, kLight, "colour at the horizon, and of the haze")),
+         only_if(!daylight, number("haze_distance", sky.haze_distance, {0.0, 1e12}, "surface units",
+                                   "distance over which 1 - 1/e of the light becomes horizon; 0: no haze")),
+         only_if(daylight, number("visibility_km", sky.visibility_km, {1.0, 250.0}, "km",
+                                  "daylight: distance at sea level at which 2 % of the contrast is left")),
+         only_if(daylight, number("altitude_m", sky.altitude_m, {-500.0, 50'000.0}, "m",
+                                  "daylight: of the surface's y = 0 over the sea")),
+         only_if(daylight, number("gain", sky.gain, {0.0, 100.0}, "",
+                                  "daylight: of the sky's light on the ground; 1 is true, more fills shadows"))});
 }
 
 Section material_section(Material& material, bool matters) {
@@ -261,7 +279,8 @@ std::vector<Section> describe(Scene& scene) {
                              shutter_section(scene.shutter),
                              camera_section(scene.camera, surface),
                              surface_section(scene.surface, surface),
-                             sun_section(scene.sun, surface),
+                             scale_section(scene.scale, surface && scene.sky.model == SkyModel::daylight),
+                             sun_section(scene.sun, scene.sky.model == SkyModel::daylight, surface),
                              sky_section(scene.sky, surface),
                              material_section(scene.material, surface),
                              zoneplate_section(scene.zoneplate, scene.image == ImageKind::zoneplate),

@@ -22,6 +22,10 @@ bool needs_time_samples(const Scene& scene) {
     return scene.sampling.estimator != EstimatorKind::none && scene.shutter.open_s > 0.0 && motion(scene).any();
 }
 
-bool needs_shadow_rays(const Sun& sun) { return sun.shadows && sun.intensity > 0.0 && sun.colour != glm::dvec3(0.0); }
+bool needs_shadow_rays(const Scene& scene) {
+    const Sun& sun = scene.sun;
+    if (scene.sky.model == SkyModel::daylight) return sun.shadows;
+    return sun.shadows && sun.intensity > 0.0 && sun.colour != glm::dvec3(0.0);
+}
 
 }  // namespace strata::scene

@@ -26,6 +26,6 @@ Motion motion(const Scene& scene);
 bool needs_time_samples(const Scene& scene);
 
 // Whether a shadow can darken a surface: it takes sunlight.
-bool needs_shadow_rays(const Sun& sun);
+bool needs_shadow_rays(const Scene& scene);
 
 }  // namespace strata::scene

@@ -111,6 +111,14 @@ std::string_view relief_meaning(const ReliefTerm& term) {
     return std::visit([](const auto& node) { return node.kMeaning; }, term.node);
 }
 
+bool is_plane_only(const ReliefTerm& term) {
+    return std::visit(
+        [](const auto& node) {
+            return requires { node.kPlaneOnly; };
+        },
+        term.node);
+}
+
 ReliefTerm default_relief_term(std::size_t type) { return {.name = {}, .of = {}, .node = default_node(type)}; }
 
 Section describe_relief_term(ReliefTerm& term) {

@@ -19,6 +19,9 @@ std::span<const std::string_view> relief_types();
 // What a kind of term is, in a few words.
 std::string_view relief_meaning(const noise::ReliefTerm& term);
 
+// Whether the term is one of height fields alone.
+bool is_plane_only(const noise::ReliefTerm& term);
+
 // A term of one kind with its defaults; type is an index of relief_types().
 noise::ReliefTerm default_relief_term(std::size_t type);
 

@@ -16,6 +16,7 @@ enum class ImageKind { surface, zoneplate, checker, wheel, edge, ramp, constant 
 enum class SurfaceKind { terrain, hyperterrain, planet, isosurface };
 enum class BoundKind { ball, box };
 enum class Interpolation { smooth, linear };
+enum class SkyModel { gradient, daylight };
 enum class EstimatorKind { none, super, uniform, jittered, stratified, random, sobol, shared, shared_sobol };
 
 struct Film {
@@ -83,6 +84,11 @@ struct Surface {
     std::vector<noise::ReliefTerm> relief{};
 };
 
+// How large the scene is, for what is told in metres.
+struct Scale {
+    double metres = 1.0;  // in a surface unit
+};
+
 struct Sun {
     glm::dvec3 direction{0.4, 0.5, -0.3};  // towards the sun, any length
     glm::dvec3 colour{1.0, 0.93, 0.82};
@@ -91,9 +97,15 @@ struct Sun {
 };
 
 struct Sky {
+    SkyModel model = SkyModel::gradient;
     glm::dvec3 zenith{0.13, 0.28, 0.62};
     glm::dvec3 horizon{0.62, 0.74, 0.88};
     double haze_distance = 0.0;  // surface units over which 1 - 1/e of the light becomes horizon; 0: no haze
+
+    // daylight
+    double visibility_km = 80.0;  // at sea level, where 2 % of the contrast is left
+    double altitude_m = 500.0;    // of the surface's y = 0 over the sea
+    double gain = 1.0;            // of the sky's light on the ground; 1 is true, more is a photographer's fill
 };
 
 struct Material {
@@ -144,6 +156,7 @@ struct Scene {
     Shutter shutter;
     Camera camera;
     Surface surface;
+    Scale scale;
     Sun sun;
     Sky sky;
     Material material;

@@ -32,6 +32,19 @@ void check_fields(Scene scene) {
     }
 }
 
+// Daylight is that of level ground under the Earth's air, and its sun does not go round.
+void check_daylight(const Scene& scene) {
+    if (scene.sky.model != SkyModel::daylight) return;
+    if (scene.surface.kind == SurfaceKind::planet) {
+        throw SceneError("sky.model: \"daylight\" has its horizon level, a planet has not, allowed: \"gradient\" here");
+    }
+    if (scene.surface.spin_deg_per_s != 0.0) {
+        throw SceneError(
+            "sky.model: \"daylight\" stands still over a surface that does not, allowed: "
+            "surface.spin_deg_per_s = 0, or \"gradient\"");
+    }
+}
+
 void check_relief(const Scene& scene) {
     const auto& terms = scene.surface.relief;
     if (terms.size() > kMostReliefTerms) {
@@ -39,6 +52,10 @@ void check_relief(const Scene& scene) {
     }
     for (std::size_t i = 0; i < terms.size(); ++i) {
         if (const std::string problem = relief_problem(terms, i); !problem.empty()) throw SceneError(problem);
+        if (scene.surface.kind != SurfaceKind::terrain && is_plane_only(terms[i])) {
+            throw SceneError(fmt::format(
+                "relief.{}.type: only over a height field, allowed: surface.kind = \"terrain\"", terms[i].name));
+        }
     }
 }
 
@@ -128,6 +145,7 @@ void validate(const Scene& scene, std::string_view source_name) {
         check_fields(scene);
         if (scene.image == ImageKind::surface) {
             check_view(scene.camera);
+            check_daylight(scene);
             check_relief(scene);
             if (scene.surface.relief.empty()) {
                 check_octaves(scene);

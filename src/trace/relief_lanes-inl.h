@@ -16,12 +16,15 @@
 #endif
 
 #include <array>
+#include <utility>
 
 #include "noise/float_error.h"
 #include "noise/relief/frame.h"
 #include "noise/relief/nodes/all.h"
+#include "noise/relief/stripe.h"
 #include "src/trace/base-inl.h"
 #include "src/trace/relief_plan.h"
+#include "src/trace/stripe-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::trace::HWY_NAMESPACE {
@@ -63,6 +66,9 @@ inline constexpr float kOperation = 0x1p-22f;
 
 // Curves are evaluated by at most eight roundings, of values no larger than a few times the larger of 1 and the result.
 inline constexpr float kCurveError = 0x1p-20f;
+
+// Sines, cosines and their angles (stripe-inl.h).
+inline constexpr double kStripeError = 0x1p-19;
 
 // Octaves are evaluated where the ball is smaller than this many of their lattice cells. Speed only.
 inline constexpr float kReliefCellsAhead = 0.3f;
@@ -318,6 +324,116 @@ class LaneNumbers : public noise::ReliefFrame {
         return there;
     }
 
+    HWY_INLINE Domain shifted(const Domain& at, int i, double by) const {
+        Domain there = at;
+        const int axis = kPlanar ? 2 * i : i;
+        Wide& moved = axis == 0 ? there.at.x : axis == 1 ? there.at.y : there.at.z;
+        moved = each_part([&](auto x) HWY_ATTR { return hn::Add(x, hn::Set(DoubleTag(), by)); }, moved);
+        there.reach += std::abs(by);
+        return there;
+    }
+
+    using Pair = std::pair<Number, Number>;
+
+    // x / R and y / R, R = sqrt(x^2 + y^2 + c^2).
+    HWY_INLINE Pair unit(const Number& x, const Number& y, double c) const {
+        const Polar at = polar(x, y, c);
+        const FloatVec bend = hn::Mul(set(noise::kUnitBend * 1.001), hn::Mul(at.inverse_least, at.inverse_least));
+        const FloatVec inverse2 = hn::Mul(at.inverse, at.inverse), inverse3 = hn::Mul(inverse2, at.inverse);
+        const FloatVec xx = hn::Mul(hn::MulAdd(y.value, y.value, set(c * c)), inverse3);
+        const FloatVec yy = hn::Mul(hn::MulAdd(x.value, x.value, set(c * c)), inverse3);
+        const FloatVec xy = hn::Neg(hn::Mul(hn::Mul(x.value, y.value), inverse3));
+        return {of_two(x, y, hn::Mul(x.value, at.inverse), xx, xy, bend),
+                of_two(x, y, hn::Mul(y.value, at.inverse), xy, yy, bend)};
+    }
+
+    // R - c.
+    HWY_INLINE Number norm(const Number& x, const Number& y, double c) const {
+        const Polar at = polar(x, y, c);
+        return of_two(x, y, hn::Sub(at.r, set(c)), hn::Mul(x.value, at.inverse), hn::Mul(y.value, at.inverse),
+                      hn::Mul(at.inverse_least, set(1.001f)));
+    }
+
+    // whole * share for a share in [0, 1] and a whole no less than 0. In balls over which the product's own bounds
+    // allow more than the whole has, it is somewhere between 0 and the whole.
+    HWY_INLINE Number part_of(const Number& whole, const Number& share) const {
+        Number part = product(whole, share);
+        const FloatVec zero = hn::Zero(FloatTag()), radius = points_.radius;
+        const FloatVec top = hn::MulAdd(length(whole.gradient), radius, hn::Add(whole.value, whole.up.at(radius)));
+        const FloatVec turn = hn::Mul(length(part.gradient), radius);
+        const FloatVec above = hn::Max(hn::Sub(top, part.value), zero), below = hn::Max(part.value, zero);
+        const auto loose_up = hn::Gt(hn::Add(turn, part.up.at(radius)), above);
+        const auto loose_down = hn::Gt(hn::Add(turn, part.down.at(radius)), below);
+        const auto loose = hn::Or(loose_up, loose_down);
+        // Without the gradient, of which the bound that is kept then takes care.
+        const FloatVec steep = length(part.gradient);
+        Slack up = part.up, down = part.down;
+        up.e1 = hn::Add(up.e1, steep);
+        down.e1 = hn::Add(down.e1, steep);
+        up = choose(hn::Gt(up.at(radius), above), {above, zero, zero}, up);
+        down = choose(hn::Gt(down.at(radius), below), {below, zero, zero}, down);
+        part.up = choose(loose, up, part.up);
+        part.down = choose(loose, down, part.down);
+        part.gradient = {hn::IfThenZeroElse(loose, part.gradient.x), hn::IfThenZeroElse(loose, part.gradient.y),
+                         hn::IfThenZeroElse(loose, part.gradient.z)};
+        return rounded(part);
+    }
+
+    // 1 / (1 + u^2 + v^2)^2, u and v the scaled coordinates; the second derivative by them is at most 4, and
+    // Taylor's remainder half of that.
+    HWY_INLINE Number fall_off(const Domain& at, double x, double z, double per_x, double per_z) const {
+        const auto coordinate = [](const Wide& of, double from, double per) HWY_ATTR {
+            return to_float(each_part(
+                [&](auto p)
+                    HWY_ATTR { return hn::Mul(hn::Sub(p, hn::Set(DoubleTag(), from)), hn::Set(DoubleTag(), per)); },
+                of));
+        };
+        const FloatVec u = coordinate(at.at.x, x, per_x), v = coordinate(at.at.z, z, per_z), one = set(1.0f);
+        const FloatVec inverse = hn::Div(one, hn::MulAdd(u, u, hn::MulAdd(v, v, one)));
+        const FloatVec value = hn::Mul(inverse, inverse);
+        const FloatVec fall = hn::Mul(set(-4.0f), hn::Mul(value, inverse));
+        const double per = std::max(per_x, per_z) * kRoundUp;
+        Number result = at_place(at, value, hn::Mul(hn::Mul(fall, u), set(per_x)),
+                                 hn::Mul(hn::Mul(fall, v), set(per_z)), set(1.08 * per), set(2.0 * per * per));
+        widen(result, set(0x1p-20f), set(0x1p-20 * per));
+        return rounded(result);
+    }
+
+    HWY_INLINE Pair stripe(std::size_t k, const Domain& at, const Number& dx, const Number& dz, double bands) {
+        const TraceOctave& octave = plan_.octaves[index_][k];
+        const noise::StripeBounds of(bands);
+        count();
+        const StripeSample sample = sample_stripe(octave, at.at, at.reach, dx.value, dz.value, bands);
+        // |change of p| <= place.e0 + place.e1 |D| in lattice units, and likewise of d.
+        const FloatVec wave = set(octave.wave * kRoundUp);
+        const Slack wide_x = larger(dx.up, dx.down), wide_z = larger(dz.up, dz.down);
+        const Slack place = {hn::Mul(wave, at.slack.e0), hn::Mul(wave, at.stretch), hn::Zero(FloatTag())};
+        const FloatVec turn0 = hn::Add(wide_x.e0, wide_z.e0), turn1 = hn::Add(swing(dx, wide_x), swing(dz, wide_z));
+        const auto twice = [](FloatVec a0, FloatVec a1, FloatVec b0, FloatVec b1, double bend) HWY_ATTR {
+            const FloatVec half = set(0.5 * bend * kRoundUp);
+            return times(Slack{hn::Mul(a0, b0), hn::MulAdd(a0, b1, hn::Mul(a1, b0)), hn::Mul(a1, b1)}, half);
+        };
+        Slack second = twice(place.e0, place.e1, place.e0, place.e1, of.place_twice);
+        second = HWY_NAMESPACE::plus(second, twice(place.e0, place.e1, turn0, turn1, 2.0 * of.place_direction));
+        second = HWY_NAMESPACE::plus(second, twice(turn0, turn1, turn0, turn1, of.direction_twice));
+        const auto wave_of = [&](FloatVec value, FloatVec by_x, FloatVec by_z, FloatVec by_dx,
+                                 FloatVec by_dz) HWY_ATTR {
+            const FloatVec frequency = set(octave.frequency);
+            Number here = at_place(at, value, hn::Mul(by_x, frequency), hn::Mul(by_z, frequency),
+                                   hn::Mul(wave, set(of.by_place)), hn::Zero(FloatTag()));
+            here = turned(turned(here, dx, by_dx), dz, by_dz);
+            here.up = HWY_NAMESPACE::plus(here.up, second);
+            here.down = HWY_NAMESPACE::plus(here.down, second);
+            // Sines and angles are off by a few 2^-24 turns, slopes by as much times `wave`.
+            const float off = static_cast<float>(kStripeError * (1.0 + of.wave));
+            widen(here, hn::MulAdd(set(off), turn0, set(off)),
+                  hn::Mul(set(off * static_cast<float>(1.0 + of.wave)), hn::Add(place.e1, turn1)));
+            return rounded(here);
+        };
+        return {wave_of(sample.c, sample.c_x, sample.c_z, sample.c_dx, sample.c_dz),
+                wave_of(sample.s, sample.s_x, sample.s_z, sample.s_dx, sample.s_dz)};
+    }
+
     Number input(std::size_t i, const Domain& at) const { return of(plan_, part().inputs[i], at, points_); }
 
     // The relief's part `index`, read at a domain.
@@ -331,6 +447,68 @@ class LaneNumbers : public noise::ReliefFrame {
     }
 
   private:
+    struct Polar {
+        FloatVec r, inverse, inverse_least;  // at the point, and 1 over the least R in the ball
+    };
+    HWY_INLINE Polar polar(const Number& x, const Number& y, double c) const {
+        const FloatVec c2 = set(c * c), one = set(1.0f);
+        const FloatVec square = hn::MulAdd(x.value, x.value, hn::Mul(y.value, y.value));
+        const FloatVec r = hn::Sqrt(hn::Add(square, c2));
+        const FloatVec radius = points_.radius;
+        const Slack wide_x = larger(x.up, x.down), wide_y = larger(y.up, y.down);
+        const FloatVec reach_x = hn::MulAdd(length(x.gradient), radius, wide_x.at(radius));
+        const FloatVec reach_y = hn::MulAdd(length(y.gradient), radius, wide_y.at(radius));
+        const FloatVec nearest =
+            hn::Max(hn::Sub(hn::Mul(hn::Sqrt(square), set(0.9999f)), hn::Add(reach_x, reach_y)), hn::Zero(FloatTag()));
+        const FloatVec least = hn::Sqrt(hn::MulAdd(nearest, nearest, c2));
+        return {r, hn::Div(one, r), hn::Div(set(1.0001f), least)};
+    }
+
+    // A function of x and y with the slopes fx and fy by them, and second derivatives of at most `bend` in the ball.
+    HWY_INLINE Number of_two(const Number& x, const Number& y, FloatVec value, FloatVec fx, FloatVec fy,
+                             FloatVec bend) const {
+        const FloatVec zero = hn::Zero(FloatTag());
+        const Slack none = no_slack();
+        Number result = turned(turned({value, {zero, zero, zero}, none, none}, x, fx), y, fy);
+        const Slack wide_x = larger(x.up, x.down), wide_y = larger(y.up, y.down);
+        const FloatVec kx = swing(x, wide_x), ky = swing(y, wide_y), two = set(2.0f), half = hn::Mul(set(0.5f), bend);
+        const Slack square = {hn::MulAdd(wide_x.e0, wide_x.e0, hn::Mul(wide_y.e0, wide_y.e0)),
+                              hn::Mul(two, hn::MulAdd(wide_x.e0, kx, hn::Mul(wide_y.e0, ky))),
+                              hn::MulAdd(kx, kx, hn::Mul(ky, ky))};
+        result.up = HWY_NAMESPACE::plus(result.up, times(square, half));
+        result.down = HWY_NAMESPACE::plus(result.down, times(square, half));
+        const FloatVec tilt = hn::Mul(set(kCurveError), hn::Add(set(1.0f), hn::Add(hn::Abs(fx), hn::Abs(fy))));
+        widen(result,
+              hn::MulAdd(tilt, hn::Add(wide_x.e0, wide_y.e0),
+                         hn::MulAdd(set(kCurveError), hn::Abs(value), set(kCurveError))),
+              hn::Mul(tilt, hn::Add(kx, ky)));
+        return rounded(result);
+    }
+
+    // result + slope (x - its value), with x's bounds.
+    static HWY_INLINE Number turned(Number result, const Number& x, FloatVec slope) {
+        const auto falls = hn::Lt(slope, hn::Zero(FloatTag()));
+        const FloatVec steep = hn::Abs(slope);
+        result.gradient = mul_add(slope, x.gradient, result.gradient);
+        result.up = HWY_NAMESPACE::plus(result.up, times(choose(falls, x.down, x.up), steep));
+        result.down = HWY_NAMESPACE::plus(result.down, times(choose(falls, x.up, x.down), steep));
+        return result;
+    }
+
+    // A function of the place, with the slopes by x and z at it, none steeper than `steepest`, and half_bend half the
+    // bound of its second derivative.
+    HWY_INLINE Number at_place(const Domain& at, FloatVec value, FloatVec by_x, FloatVec by_z, FloatVec steepest,
+                               FloatVec half_bend) const {
+        const FloatVec zero = hn::Zero(FloatTag());
+        Slack slack = {zero, zero, hn::Mul(half_bend, hn::Mul(at.stretch, at.stretch))};
+        if (at.is_plain) return {value, {by_x, zero, by_z}, slack, slack};
+        slack = HWY_NAMESPACE::plus(slack, times(at.slack, steepest));
+        slack.e0 = hn::MulAdd(half_bend, hn::Mul(at.slack.e0, at.slack.e0), slack.e0);
+        slack.e1 = hn::MulAdd(half_bend, hn::Mul(set(2.0f), hn::Mul(at.stretch, at.slack.e0)), slack.e1);
+        slack.e1 = hn::MulAdd(hn::Mul(set(kOperation), steepest), at.stretch, slack.e1);
+        return {value, mul_add(by_z, at.rows[2], HWY_NAMESPACE::scaled(at.rows[0], by_x)), slack, slack};
+    }
+
     // k with |a - value| <= e0 + k |D| in the ball.
     HWY_INLINE FloatVec swing(const Number& a, const Slack& wide) const {
         return hn::Add(length(a.gradient), hn::MulAdd(wide.e2, points_.radius, wide.e1));

@@ -98,16 +98,21 @@ TEST_CASE("a camera rests exactly where its position does not change while the s
 }
 
 TEST_CASE("shadows need a sun that shines and casts them") {
-    Sun sun;
-    CHECK(needs_shadow_rays(sun));
+    Scene scene;
+    Sun& sun = scene.sun;
+    CHECK(needs_shadow_rays(scene));
     sun.colour = {0.0, 0.0, 1e-9};
-    CHECK(needs_shadow_rays(sun));
+    CHECK(needs_shadow_rays(scene));
     sun.colour = glm::dvec3(0.0);
-    CHECK(!needs_shadow_rays(sun));
+    CHECK(!needs_shadow_rays(scene));
     sun = {};
     sun.intensity = 0.0;
-    CHECK(!needs_shadow_rays(sun));
+    CHECK(!needs_shadow_rays(scene));
     sun = {};
     sun.shadows = false;
-    CHECK(!needs_shadow_rays(sun));
+    CHECK(!needs_shadow_rays(scene));
+    scene.sky.model = SkyModel::daylight;
+    CHECK(!needs_shadow_rays(scene));
+    sun = {.colour = glm::dvec3(0.0), .intensity = 0.0};
+    CHECK(needs_shadow_rays(scene));  // daylight's sun has its own light
 }

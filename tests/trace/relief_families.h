@@ -44,6 +44,34 @@ inline std::vector<noise::ReliefTerm> random_relief(Random& random) {
     return terms;
 }
 
+// Of height fields: a relief as above, perhaps put in place, filled and carved.
+inline std::vector<noise::ReliefTerm> random_landform(Random& random) {
+    std::vector<noise::ReliefTerm> terms = random_relief(random);
+    const auto add = [&](std::string name, noise::ReliefNode node) {
+        const std::string before = terms.back().name;
+        terms.push_back({std::move(name), {before}, std::move(node)});
+    };
+    if (random() % 2 == 0) {
+        add("e", noise::Envelope{.x = uniform(random, -5.0, 5.0),
+                                 .z = uniform(random, -5.0, 5.0),
+                                 .x_size = uniform(random, 2.0, 9.0),
+                                 .z_size = uniform(random, 2.0, 9.0),
+                                 .least = uniform(random, 0.0, 0.9),
+                                 .lift = uniform(random, -0.5, 0.5)});
+    }
+    if (random() % 2 == 0) add("f", noise::Fill{uniform(random, -0.1, 0.3), log_uniform(random, 0.02, 0.3)});
+    if (random() % 2 == 0 || terms.size() < 3) {
+        noise::Gullies gullies;
+        gullies.parameters.octaves = 1 + static_cast<int>(random() % 4);
+        gullies.parameters.amplitude = uniform(random, 0.05, 0.25);
+        gullies.parameters.seed = random() >> 1;
+        gullies.size = log_uniform(random, 0.3, 2.0);
+        gullies.bands = uniform(random, 0.6, 1.5);
+        add("g", gullies);
+    }
+    return terms;
+}
+
 inline scene::Surface random_composed_surface(Random& random) {
     scene::Surface surface = random_surface(random);
     surface.relief = random_relief(random);
@@ -61,11 +89,14 @@ class ComposedField {
         : shape_(oracle::shape_of(surface)),
           bare_(bare(surface)),
           relief_(surface.relief, surface.kind == scene::SurfaceKind::terrain),
-          slope_(relief_.slope() + (surface.kind == scene::SurfaceKind::isosurface ? 0.0 : 1.0)) {}
+          base_slope_(surface.kind == scene::SurfaceKind::isosurface ? 0.0 : 1.0),
+          slope_(relief_.slope() + base_slope_) {}
 
     oracle::Probe probe(const oracle::Vec& p) const {
-        const double f = bare_.base(p) - relief_.value(p);
-        return {f, std::abs(f) / slope_};
+        const double base = bare_.base(p), f = base - relief_.value(p);
+        const oracle::ReliefOracle::Rough rough = relief_.rough(p);
+        const double outside = base - rough.high, inside = rough.low - base;
+        return {f, std::max(std::abs(f) / slope_, std::max(outside, inside) / (base_slope_ + rough.slope))};
     }
     const oracle::Shape& shape() const { return shape_; }
 
@@ -79,7 +110,7 @@ class ComposedField {
     oracle::Shape shape_;
     oracle::FieldOracle bare_;
     oracle::ReliefOracle relief_;
-    double slope_;
+    double base_slope_, slope_;
 };
 
 inline Judgement judge_composed(const scene::Surface& surface, std::span<const trace::Ray> rays,

@@ -63,6 +63,17 @@ TEST_CASE("no ray passes over random compositions of terms, on every kind of sur
     MESSAGE("rays in all: " << rays);
 }
 
+TEST_CASE("no ray passes over gullies, envelopes and filled valleys") {
+    Random random(15);
+    std::size_t rays = 0;
+    for (int i = 0; i < 10; ++i) {
+        scene::Surface surface;
+        surface.relief = random_landform(random);
+        check_rays(surface, 60, random, rays);
+    }
+    MESSAGE("rays in all: " << rays);
+}
+
 TEST_CASE("a lone fBm as a term is the surface of the keys of [surface]") {
     Random random(13);
     for (int i = 0; i < 4; ++i) {
@@ -95,7 +106,11 @@ TEST_CASE("within a beam's free stretch no point is inside a composed relief") {
     Random random(14);
     std::size_t points = 0;
     for (int i = 0; i < 12; ++i) {
-        const scene::Surface surface = random_composed_surface(random);
+        scene::Surface surface = random_composed_surface(random);
+        if (i % 2 == 0) {
+            surface = {};
+            surface.relief = random_landform(random);
+        }
         const trace::Field field(surface);
         const trace::FastTracer rays(field);
         const trace::BeamTracer beams(field);

@@ -98,10 +98,14 @@ void add_surface(FeatureList& list, const scene::Scene& scene) {
     list.add("ball or box", surface.kind == SurfaceKind::isosurface,
              "the isosurface is cut from a ball or box; hits on it need no noise for their normal",
              "only isosurfaces are cut from a ball or box");
-    list.add("shadow rays", scene::needs_shadow_rays(scene.sun), shadow_reason(scene.sun));
-    list.add("sunlight", scene.sun.intensity > 0.0, "sun.intensity is above 0", "sun.intensity is 0: skylight alone");
+    list.add("shadow rays", scene::needs_shadow_rays(scene), shadow_reason(scene.sun));
+    const bool daylight = scene.sky.model == scene::SkyModel::daylight;
+    list.add("daylight", daylight, "sun, sky and air by the Earth's atmosphere: tables of 0.2 s, made once",
+             "sky.model is \"gradient\"");
+    list.add("sunlight", daylight || scene.sun.intensity > 0.0, daylight ? "the sun's light through the air" : "sun.intensity is above 0", "sun.intensity is 0: skylight alone");
     list.add("sky", true, "what rays see that meet nothing, and the skylight");
-    list.add("haze", scene.sky.haze_distance > 0.0, "a hit's colour fades into the sky behind it",
+    list.add("haze", daylight || scene.sky.haze_distance > 0.0,
+             daylight ? "the air between, by sky.visibility_km" : "a hit's colour fades into the sky behind it",
              "sky.haze_distance is 0");
     list.add("material", true, "colour by height and slope: [material]");
 }

@@ -78,7 +78,7 @@ double expected_memory(const render::Window& window, const render::Estimator& es
 void leave_out(const scene::Scene& scene, Costs& costs) {
     if (scene.image != scene::ImageKind::surface) {
         costs.shadow_rays = costs.hits = costs.noise_evaluations = costs.steps = costs.executed_lanes = 0.0;
-    } else if (!scene::needs_shadow_rays(scene.sun)) {
+    } else if (!scene::needs_shadow_rays(scene)) {
         costs.shadow_rays = 0.0;
     }
 }

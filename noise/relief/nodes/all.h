@@ -6,7 +6,10 @@
 
 #endif
 
+#include "noise/relief/nodes/envelope.h"
 #include "noise/relief/nodes/fbm.h"
+#include "noise/relief/nodes/fill.h"
+#include "noise/relief/nodes/gullies.h"
 #include "noise/relief/nodes/ridged.h"
 #include "noise/relief/nodes/sum.h"
 #include "noise/relief/nodes/warp.h"
@@ -15,7 +18,7 @@
 #define STRATA_NOISE_RELIEF_NODE_
 namespace strata::noise {
 
-using ReliefNode = std::variant<Fbm, Ridged, Warp, Sum>;
+using ReliefNode = std::variant<Fbm, Ridged, Warp, Sum, Gullies, Envelope, Fill>;
 
 }  // namespace strata::noise
 #endif

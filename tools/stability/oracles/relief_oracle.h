@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 #include <variant>
@@ -25,6 +27,12 @@ class ReliefOracle {
     }
 
     double value(const Vec& p) const { return value_of(last_, p); }
+
+    // The relief lies between `low` and `high`, which are `slope`-Lipschitz: what holds whatever gullies carve.
+    struct Rough {
+        double low, high, slope;
+    };
+    Rough rough(const Vec& p) const { return rough_of(last_, p); }
 
     // No less than the relief's Lipschitz constant.
     double slope() const { return slope_of(last_); }
@@ -58,6 +66,14 @@ class ReliefOracle {
         }
     }
     void prepare(const std::string&, const noise::Sum&) {}
+    void prepare(const std::string&, const noise::Envelope&) {}
+    void prepare(const std::string&, const noise::Fill&) {}
+    void prepare(const std::string& name, const noise::Gullies& node) {
+        noise::FbmParameters p = node.parameters;
+        p.amplitude *= node.size;
+        p.frequency = 1.0 / node.size;
+        octaves_[name] = {octaves_of(p, p.seed)};
+    }
 
     double noise(const OracleOctave& o, const Vec& p) const {
         const double w = o.frequency;
@@ -135,6 +151,126 @@ class ReliefOracle {
         double total = 0.0;
         for (const std::string& input : terms_.at(name).of) total += slope_of(input);
         return std::abs(node.scale) * total;
+    }
+
+    double read(const std::string& name, const noise::Envelope& node, const Vec& p) const {
+        const double mass = mass_of(node, p);
+        return (node.least + (1.0 - node.least) * mass) * value_of(terms_.at(name).of.front(), p) + node.lift * mass;
+    }
+    double steepest(const std::string& name, const noise::Envelope& node) const {
+        return slope_of(terms_.at(name).of.front()) + mass_slope(node) * (std::abs(node.lift) + largest(name));
+    }
+    static double mass_of(const noise::Envelope& node, const Vec& p) {
+        return std::pow(
+            1.0 + std::pow((p[0] - node.x) / node.x_size, 2.0) + std::pow((p[2] - node.z) / node.z_size, 2.0), -2.0);
+    }
+    static double mass_slope(const noise::Envelope& node) { return 1.1 / std::min(node.x_size, node.z_size); }
+
+    // A bound of what an envelope weakens.
+    double largest(const std::string& name) const {
+        double most = 0.0;
+        for (const auto& [other, octaves] : octaves_)
+            for (const Octaves& each : octaves)
+                for (const OracleOctave& o : each) most += 2.0 * std::abs(o.amplitude);
+        return terms_.at(name).of.empty() ? 0.0 : most + 10.0;
+    }
+
+    double read(const std::string& name, const noise::Fill& node, const Vec& p) const {
+        const double d = value_of(terms_.at(name).of.front(), p) - node.floor;
+        return node.floor + 0.5 * (d + std::hypot(d, node.softness));
+    }
+    double steepest(const std::string& name, const noise::Fill&) const { return slope_of(terms_.at(name).of.front()); }
+
+    double read(const std::string& name, const noise::Gullies& node, const Vec& p) const {
+        const std::string& of = terms_.at(name).of.front();
+        const double step = 0.05 * node.size, base = value_of(of, p);
+        double gx = (value_of(of, {p[0] + step, p[1], p[2]}) - base) / step;
+        double gz = (value_of(of, {p[0], p[1], p[2] + step}) - base) / step;
+        double height = base;
+        for (const OracleOctave& o : octaves_.at(name).front()) {
+            const double steep = std::hypot(gx, gz, 0.08), slope = (steep - 0.08) / node.steepest;
+            const double depth = o.amplitude * node.steepest * (slope < 2.0 ? slope - slope * slope / 4.0 : 1.0);
+            const double dx = -gz / steep, dz = gx / steep;
+            const std::array<double, 2> wave = stripe(o, p, dx, dz, node.bands);
+            const double even = std::hypot(wave[0], wave[1], 0.25);
+            height -= depth * 0.5 * (1.0 - wave[0] / even);
+            const double pull = -3.14159265358979323846 * node.bands * o.frequency * depth * wave[1] / even;
+            gx += pull * dx;
+            gz += pull * dz;
+        }
+        return height;
+    }
+    // No use is made of how steep gullies are: rough() tells what they leave.
+    double steepest(const std::string&, const noise::Gullies&) const { return std::numeric_limits<double>::infinity(); }
+
+    static std::array<double, 2> stripe(const OracleOctave& o, const Vec& p, double dx, double dz, double bands) {
+        const double x = o.frequency * p[0] + o.offset[0], z = o.frequency * p[2] + o.offset[1];
+        const double cx = std::floor(x), cz = std::floor(z);
+        std::array<double, 2> sum{};
+        for (int i = 0; i < 2; ++i) {
+            for (int j = 0; j < 2; ++j) {
+                const std::uint32_t hash = (detail::plane_hash(static_cast<std::int64_t>(cx) + i, o.key[0]) ^
+                                            detail::plane_hash(static_cast<std::int64_t>(cz) + j, o.key[1])) *
+                                           2246822519u;
+                const double u = detail::smooth(x - cx), v = detail::smooth(z - cz);
+                const double weight = (i == 0 ? 1.0 - u : u) * (j == 0 ? 1.0 - v : v);
+                const double turns = bands * (dx * (x - cx - i) + dz * (z - cz - j)) + (hash >> 8) / 16777216.0;
+                sum[0] += weight * std::cos(6.283185307179586 * turns);
+                sum[1] += weight * std::sin(6.283185307179586 * turns);
+            }
+        }
+        return sum;
+    }
+
+    Rough rough_of(const std::string& name, const Vec& p) const {
+        return std::visit([&](const auto& node) { return guess(name, node, p); }, terms_.at(name).node);
+    }
+    template <class Node>
+    Rough guess(const std::string& name, const Node& node, const Vec& p) const {
+        const double value = read(name, node, p);
+        return {value, value, steepest(name, node)};
+    }
+    Rough guess(const std::string& name, const noise::Warp& node, const Vec& p) const {
+        double displacement = 0.0;
+        Vec there = p;
+        const auto& components = octaves_.at(name);
+        for (std::size_t c = 0; c < components.size(); ++c) {
+            there[planar_ ? 2 * c : c] += sum(components[c], p) / peak();
+            displacement += steepness(components[c]) / peak();
+        }
+        (void)node;
+        Rough of = rough_of(terms_.at(name).of.front(), there);
+        of.slope *= 1.0 + displacement;
+        return of;
+    }
+    Rough guess(const std::string& name, const noise::Sum& node, const Vec& p) const {
+        Rough all{node.offset, node.offset, 0.0};
+        for (const std::string& input : terms_.at(name).of) {
+            const Rough of = rough_of(input, p);
+            all.low += node.scale * (node.scale < 0.0 ? of.high : of.low);
+            all.high += node.scale * (node.scale < 0.0 ? of.low : of.high);
+            all.slope += std::abs(node.scale) * of.slope;
+        }
+        return all;
+    }
+    Rough guess(const std::string& name, const noise::Envelope& node, const Vec& p) const {
+        const Rough of = rough_of(terms_.at(name).of.front(), p);
+        const double mass = mass_of(node, p), weight = node.least + (1.0 - node.least) * mass;
+        return {weight * of.low + node.lift * mass, weight * of.high + node.lift * mass,
+                of.slope + mass_slope(node) * (std::abs(node.lift) + largest(name))};
+    }
+    Rough guess(const std::string& name, const noise::Fill& node, const Vec& p) const {
+        Rough of = rough_of(terms_.at(name).of.front(), p);
+        for (double* height : {&of.low, &of.high}) {
+            const double d = *height - node.floor;
+            *height = node.floor + 0.5 * (d + std::hypot(d, node.softness));
+        }
+        return of;
+    }
+    Rough guess(const std::string& name, const noise::Gullies& node, const Vec& p) const {
+        Rough of = rough_of(terms_.at(name).of.front(), p);
+        for (const OracleOctave& o : octaves_.at(name).front()) of.low -= o.amplitude * node.steepest;
+        return of;
     }
 
     bool planar_;

@@ -1,0 +1,38 @@
+// Daylight (shaders_cpu/daylight) over a scene's ground: from surface units to metres, and from cd/m^2 to the scene's
+// radiance.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "shaders_cpu/daylight/daylight.h"
+#include "src/scene/scene.h"
+
+namespace strata::integrate {
+
+// Luminance that radiance 1 stands for, cd/m^2: about what white ground under a high sun has, so that daylight and
+// chosen lights want like exposures.
+inline constexpr double kLuminanceOfOne = 25'000.0;
+
+class DaylightScene {
+  public:
+    // to_sun, eye: in the surface's resting axes, the eye in surface units.
+    DaylightScene(const scene::Scene& scene, const glm::dvec3& to_sun, const glm::dvec3& eye);
+
+    // Of the sky in a unit direction.
+    glm::vec3 sky(const glm::dvec3& direction) const;
+
+    // What a white Lambert surface shows at a height (surface units): under a sun that it faces, and under the whole
+    // sky and ground for a unit normal.
+    glm::vec3 sun_on_white(double height) const;
+    glm::vec3 sky_on_white(const glm::dvec3& normal) const;
+
+    // Radiance seen through the air; distance from the eye in surface units.
+    glm::vec3 through_air(const glm::vec3& radiance, const glm::dvec3& direction, double distance) const;
+
+  private:
+    double metres_, altitude_, gain_;
+    shaders::Daylight daylight_;
+};
+
+}  // namespace strata::integrate
