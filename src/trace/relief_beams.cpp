@@ -84,9 +84,11 @@ HWY_INLINE BeamStep step_beam(const Field& field, const ReliefPlan& plan, const 
     const FloatVec drift = hn::Load(d, packet.noise_radius), radius = hn::Add(own, drift);
     const FloatVec hint = hn::Load(d, packet.hint), pace = hn::Mul(hn::Add(hn::Load(d, packet.speed), spread), up);
     FloatVec evaluations = hn::Zero(d);
+    auto broken = hn::Lt(evaluations, evaluations);
     const auto active = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
     const auto none = hn::Lt(hint, hn::Zero(d));
-    const ReliefPoints points{hn::Mul(hn::MulAdd(hint, pace, radius), up), active, none, &counters, &evaluations};
+    const ReliefPoints points{
+        hn::Mul(hn::MulAdd(hint, pace, radius), up), active, none, &counters, &evaluations, &broken};
     const Enclosure r = enclose<kPlanar>(plan, noise_x, packet.reach, points);
 
     const Base base = base_at<kPlanar>(field, x, direction);

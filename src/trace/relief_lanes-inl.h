@@ -23,6 +23,7 @@
 #include "noise/relief/nodes/all.h"
 #include "noise/relief/stripe.h"
 #include "src/trace/base-inl.h"
+#include "src/trace/ray.h"
 #include "src/trace/relief_plan.h"
 #include "src/trace/stripe-inl.h"
 
@@ -123,23 +124,38 @@ HWY_INLINE void widen(Enclosure& x, FloatVec e0, FloatVec e1) {
     x.down.e1 = hn::Add(x.down.e1, e1);
 }
 
+// What the points of a call share, a lane each.
+struct ReliefPoints {
+    FloatVec radius;             // of the ball in which the bounds hold
+    hn::Mask<FloatTag> active;   // the lanes that are asked for
+    hn::Mask<FloatTag> whole;    // those in which no octave is left out
+    TraceCounters* counters;     // noise evaluations and lanes are added
+    FloatVec* evaluations;       // of each lane, added to
+    hn::Mask<FloatTag>* broken;  // lanes in which bounds grew past kMostSlack are added
+};
+
+// Bounds beyond it are of no use, and their products would soon be no numbers at all.
+inline constexpr float kMostSlack = 1e12f;
+
 // With what an operation's rounding adds.
-HWY_INLINE Enclosure rounded(Enclosure x) {
+HWY_INLINE Enclosure rounded(Enclosure x, const ReliefPoints& points, hn::Mask<FloatTag> used) {
     const FloatVec unit = set(kOperation);
     const FloatVec e0 = hn::Mul(unit, hn::Abs(x.value));
     const FloatVec sum = hn::Add(hn::Abs(x.gradient.x), hn::Add(hn::Abs(x.gradient.y), hn::Abs(x.gradient.z)));
     widen(x, e0, hn::Mul(unit, sum));
+    const FloatVec most = set(kMostSlack);
+    const Slack wide = larger(x.up, x.down);
+    const auto fits = hn::Lt(hn::Add(hn::Max(wide.e0, wide.e2), hn::Max(wide.e1, sum)), most);
+    *points.broken = hn::Or(*points.broken, hn::AndNot(fits, used));
+    const auto least = [&](const Slack& a) HWY_ATTR {
+        return Slack{hn::Min(a.e0, most), hn::Min(a.e1, most), hn::Min(a.e2, most)};
+    };
+    x.up = least(x.up);
+    x.down = least(x.down);
+    x.gradient = {hn::Clamp(x.gradient.x, hn::Neg(most), most), hn::Clamp(x.gradient.y, hn::Neg(most), most),
+                  hn::Clamp(x.gradient.z, hn::Neg(most), most)};
     return x;
 }
-
-// What the points of a call share, a lane each.
-struct ReliefPoints {
-    FloatVec radius;            // of the ball in which the bounds hold
-    hn::Mask<FloatTag> active;  // the lanes that are asked for
-    hn::Mask<FloatTag> whole;   // those in which no octave is left out
-    TraceCounters* counters;    // noise evaluations and lanes are added
-    FloatVec* evaluations;      // of each lane, added to
-};
 
 template <bool kPlanar>
 class LaneNumbers : public noise::ReliefFrame {
@@ -173,18 +189,18 @@ class LaneNumbers : public noise::ReliefFrame {
         const FloatVec off = set(std::abs(x) * 0x1p-23);
         return {set(x), {zero, zero, zero}, {off, zero, zero}, {off, zero, zero}};
     }
-    static HWY_INLINE Number plus(const Number& a, const Number& b) {
-        return rounded({hn::Add(a.value, b.value),
-                        {hn::Add(a.gradient.x, b.gradient.x), hn::Add(a.gradient.y, b.gradient.y),
-                         hn::Add(a.gradient.z, b.gradient.z)},
-                        HWY_NAMESPACE::plus(a.up, b.up),
-                        HWY_NAMESPACE::plus(a.down, b.down)});
+    HWY_INLINE Number plus(const Number& a, const Number& b) const {
+        return finished({hn::Add(a.value, b.value),
+                         {hn::Add(a.gradient.x, b.gradient.x), hn::Add(a.gradient.y, b.gradient.y),
+                          hn::Add(a.gradient.z, b.gradient.z)},
+                         HWY_NAMESPACE::plus(a.up, b.up),
+                         HWY_NAMESPACE::plus(a.down, b.down)});
     }
-    static HWY_INLINE Number scaled(const Number& a, double by) {
+    HWY_INLINE Number scaled(const Number& a, double by) const {
         const FloatVec factor = set(by), size = set(std::abs(by));
         const Slack& up = by < 0.0 ? a.down : a.up;
         const Slack& down = by < 0.0 ? a.up : a.down;
-        return rounded(
+        return finished(
             {hn::Mul(a.value, factor), HWY_NAMESPACE::scaled(a.gradient, factor), times(up, size), times(down, size)});
     }
 
@@ -206,7 +222,7 @@ class LaneNumbers : public noise::ReliefFrame {
                       sum(choose(b_falls, a.up, a.down), choose(a_falls, b.up, b.down))};
         // The terms of the gradient may cancel.
         widen(result, set(0.0f), hn::Mul(set(kOperation), hn::MulAdd(size_a, k_b, hn::Mul(size_b, k_a))));
-        return rounded(result);
+        return finished(result);
     }
 
     // Taylor's formula about the value: g(v + p) <= g(v) + g'(v) p + bend p^2 / 2.
@@ -231,7 +247,7 @@ class LaneNumbers : public noise::ReliefFrame {
         const FloatVec off = hn::MulAdd(set(kCurveError), hn::Abs(value), set(kCurveError));
         const FloatVec tilt = hn::MulAdd(set(kCurveError), steep, set(kCurveError));
         widen(result, hn::MulAdd(tilt, wide.e0, off), hn::Mul(tilt, k));
-        return rounded(result);
+        return finished(result);
     }
 
     // Taylor's formula for noise: n(q + E) <= n + grad n . E + H |E|^2 / 2 in lattice units, E = w (J D + e).
@@ -246,7 +262,7 @@ class LaneNumbers : public noise::ReliefFrame {
         const FloatVec half_bend = set(0.5 * bounds().second * wave * wave * kRoundUp);
         Slack slack = {set(errors.value), hn::Mul(set(errors.slope * wave), at.stretch),
                        hn::Mul(half_bend, hn::Mul(at.stretch, at.stretch))};
-        if (at.is_plain) return rounded({n.value, there, slack, slack});
+        if (at.is_plain) return finished({n.value, there, slack, slack});
         slack = HWY_NAMESPACE::plus(slack, times(at.slack, set(bounds().gradient * wave * kRoundUp)));
         slack.e0 = hn::MulAdd(half_bend, hn::Mul(at.slack.e0, at.slack.e0), slack.e0);
         slack.e1 = hn::MulAdd(half_bend, hn::Mul(set(2.0f), hn::Mul(at.stretch, at.slack.e0)), slack.e1);
@@ -255,7 +271,7 @@ class LaneNumbers : public noise::ReliefFrame {
         if constexpr (!kPlanar) gradient = mul_add(there.y, at.rows[1], gradient);
         // Its terms may cancel.
         slack.e1 = hn::MulAdd(set(kOperation * bounds().gradient * wave), at.stretch, slack.e1);
-        return rounded({n.value, gradient, slack, slack});
+        return finished({n.value, gradient, slack, slack});
     }
 
     struct Running {
@@ -376,7 +392,7 @@ class LaneNumbers : public noise::ReliefFrame {
         part.down = choose(loose, down, part.down);
         part.gradient = {hn::IfThenZeroElse(loose, part.gradient.x), hn::IfThenZeroElse(loose, part.gradient.y),
                          hn::IfThenZeroElse(loose, part.gradient.z)};
-        return rounded(part);
+        return finished(part);
     }
 
     // 1 / (1 + u^2 + v^2)^2, u and v the scaled coordinates; the second derivative by them is at most 4, and
@@ -396,7 +412,7 @@ class LaneNumbers : public noise::ReliefFrame {
         Number result = at_place(at, value, hn::Mul(hn::Mul(fall, u), set(per_x)),
                                  hn::Mul(hn::Mul(fall, v), set(per_z)), set(1.08 * per), set(2.0 * per * per));
         widen(result, set(0x1p-20f), set(0x1p-20 * per));
-        return rounded(result);
+        return finished(result);
     }
 
     HWY_INLINE Pair stripe(std::size_t k, const Domain& at, const Number& dx, const Number& dz, double bands) {
@@ -428,13 +444,18 @@ class LaneNumbers : public noise::ReliefFrame {
             const float off = static_cast<float>(kStripeError * (1.0 + of.wave));
             widen(here, hn::MulAdd(set(off), turn0, set(off)),
                   hn::Mul(set(off * static_cast<float>(1.0 + of.wave)), hn::Add(place.e1, turn1)));
-            return rounded(here);
+            return finished(here);
         };
         return {wave_of(sample.c, sample.c_x, sample.c_z, sample.c_dx, sample.c_dz),
                 wave_of(sample.s, sample.s_x, sample.s_z, sample.s_dx, sample.s_dz)};
     }
 
-    Number input(std::size_t i, const Domain& at) const { return of(plan_, part().inputs[i], at, points_); }
+    // Only where the result is used: elsewhere a part's bounds may be of no use without harm.
+    Number input(std::size_t i, const Domain& at) const {
+        ReliefPoints points = points_;
+        points.active = counted_;
+        return of(plan_, part().inputs[i], at, points);
+    }
 
     // The relief's part `index`, read at a domain.
     static HWY_NOINLINE Number of(const ReliefPlan& plan, std::size_t index, const Domain& at,
@@ -447,6 +468,8 @@ class LaneNumbers : public noise::ReliefFrame {
     }
 
   private:
+    HWY_INLINE Number finished(const Number& x) const { return rounded(x, points_, counted_); }
+
     struct Polar {
         FloatVec r, inverse, inverse_least;  // at the point, and 1 over the least R in the ball
     };
@@ -482,7 +505,7 @@ class LaneNumbers : public noise::ReliefFrame {
               hn::MulAdd(tilt, hn::Add(wide_x.e0, wide_y.e0),
                          hn::MulAdd(set(kCurveError), hn::Abs(value), set(kCurveError))),
               hn::Mul(tilt, hn::Add(kx, ky)));
-        return rounded(result);
+        return finished(result);
     }
 
     // result + slope (x - its value), with x's bounds.
@@ -535,8 +558,11 @@ template <bool kPlanar>
 HWY_INLINE Enclosure enclose(const ReliefPlan& plan, const WidePoint& x, double reach, const ReliefPoints& points) {
     Enclosure all =
         LaneNumbers<kPlanar>::of(plan, plan.relief->parts().size() - 1, LaneNumbers<kPlanar>::domain(x, reach), points);
-    all.up = inflated(all.up);
-    all.down = inflated(all.down);
+    // Of broken lanes nothing is known, at any distance.
+    const FloatVec unknown = set(1e30f);
+    const Slack none = {unknown, unknown, hn::Zero(FloatTag())};
+    all.up = choose(*points.broken, none, inflated(all.up));
+    all.down = choose(*points.broken, none, inflated(all.down));
     return all;
 }
 

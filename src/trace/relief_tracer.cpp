@@ -65,9 +65,10 @@ HWY_INLINE ReliefStep relief_step(const Field& field, const ReliefPlan& plan, Pa
     if (field.drifts()) noise_x = add(x, load_point(packet.noise_shift));
     const FloatVec hint = hn::Load(d, packet.hint), speed = hn::Load(d, packet.speed);
     FloatVec evaluations = zero;
+    auto broken = hn::Lt(zero, zero);
     const auto active = hn::Gt(hn::Load(d, packet.active), zero);
     const auto whole = hn::Le(hint, delta);
-    const ReliefPoints points{hn::Mul(hint, speed), active, whole, &counters, &evaluations};
+    const ReliefPoints points{hn::Mul(hint, speed), active, whole, &counters, &evaluations, &broken};
     const Enclosure r = enclose<kPlanar>(plan, noise_x, packet.reach, points);
     hn::Store(hn::Add(hn::Load(dw, packet.evaluations),
                       hn::BitCast(dw, hn::ConvertTo(hn::RebindToSigned<FloatTag>(), evaluations))),
@@ -208,8 +209,9 @@ HWY_NOINLINE void relief_gradients(const Field& field, const ReliefPlan& plan, s
             }
         }
         FloatVec evaluations = hn::Zero(d);
+        auto broken = hn::Lt(evaluations, evaluations);
         const auto active = hn::Gt(hn::Load(d, used), hn::Zero(d));
-        const ReliefPoints points{hn::Zero(d), active, active, &counters, &evaluations};
+        const ReliefPoints points{hn::Zero(d), active, active, &counters, &evaluations, &broken};
         const Enclosure r = enclose<kPlanar>(plan, load_point(at), reach, points);
         hn::Store(r.gradient.x, d, out[0]);
         hn::Store(r.gradient.y, d, out[1]);
