@@ -71,8 +71,6 @@ Canvas to_canvas(const Picture& linear, double exposure) {
     return canvas;
 }
 
-Canvas codes_to_canvas(const Picture& codes) { return {codes.width(), codes.height(), codes.rgb}; }
-
 Canvas crop(const Canvas& canvas, const Box& box) {
     if (is_empty(box) || intersection(box, canvas.box()) != box) {
         throw ImageError(fmt::format("the crop {},{},{},{} is empty or outside the {}x{} picture", box.x0, box.y0,
@@ -115,12 +113,6 @@ void outline(Canvas& canvas, const Box& box, const Colour& colour, int thickness
     fill(canvas, {around.x0, box.y1, around.x1, around.y1}, colour);
     fill(canvas, {around.x0, box.y0, box.x0, box.y1}, colour);
     fill(canvas, {box.x1, box.y0, around.x1, box.y1}, colour);
-}
-
-void draw_line(Canvas& canvas, int x0, int y0, int x1, int y1, const Colour& colour) {
-    ImageBuf target = buffer_of(canvas);
-    require_drawn(ImageBufAlgo::render_line(target, x0, y0, x1, y1, values_of(colour), false, roi_of(canvas.box())),
-                  target);
 }
 
 void check_canvas_format(const std::filesystem::path& path) {
