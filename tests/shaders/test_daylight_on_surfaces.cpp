@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
 #include "shaders_cpu/daylight/daylight.h"
 
@@ -84,6 +85,34 @@ TEST_CASE("the density of sampled directions integrates to one and is the one th
         MESSAGE("sun at ", elevation, ": a sample's standard deviation is ", spread, " of the mean");
         CHECK(spread < 0.5);
     }
+}
+
+TEST_CASE("as many directions are sampled anywhere as the density says, within its cells too") {
+    const Daylight day(Atmosphere{}, direction_of(20.0, 0.4), 0.0);
+    constexpr int kRows = 16, kColumns = 192;  // a third of a cell's width and two cells high
+    constexpr int kSide = 1000;
+    std::vector<double> found(kRows * kColumns);
+    for (int i = 0; i < kSide; ++i)
+        for (int j = 0; j < kSide; ++j) {
+            const glm::dvec3 d = day.sample_sky((i + 0.5) / kSide, (j + 0.5) / kSide).direction;
+            const double turns = std::atan2(d.z, d.x) / (2.0 * kPi);
+            const int row = std::min(static_cast<int>(d.y * kRows), kRows - 1);
+            const int column = std::min(static_cast<int>((turns < 0.0 ? turns + 1.0 : turns) * kColumns), kColumns - 1);
+            found[row * kColumns + column] += 1.0 / (kSide * kSide);
+        }
+    double worst = 0.0;
+    for (int row = 0; row < kRows; ++row)
+        for (int column = 0; column < kColumns; ++column) {
+            double expected_share = 0.0;
+            for (const double y : {row + 0.25, row + 0.75})
+                expected_share += 0.5 * day.sky_pdf(direction_at(y / kRows, 2.0 * kPi * (column + 0.5) / kColumns)) *
+                                  2.0 * kPi / (kRows * kColumns);
+            // The lattice leaves dim bins to a few dozen samples.
+            const double scale = expected_share + 0.5 / (kRows * kColumns);
+            worst = std::max(worst, std::fabs(found[row * kColumns + column] - expected_share) / scale);
+        }
+    MESSAGE("share of samples within ", worst, " of the density's");
+    CHECK(worst < 0.25);
 }
 
 TEST_CASE("sunlight fades while the disc sets, and sets later higher up") {
