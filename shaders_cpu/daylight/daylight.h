@@ -16,7 +16,7 @@
 //   pixel = air.transmittance * radiance + air.inscatter;
 //   pixel = day.sky_radiance(direction);                                                   // or nothing hit
 //
-// How right it is, by day: light scattered once within 0.2 % (rms) and twice within 0.6 % of brute force, colours
+// How right it is, by day: light scattered once within 0.2 % (rms) and twice within 1 % of brute force, colours
 // within 0.005 in (u',v') of the whole spectrum, all orders together within 2 % of light paths in clear air (visibility
 // 200 km) and some 10 % at 60 km, where the red of the last degree above the horizon comes out up to a half too bright.
 //
