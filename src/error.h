@@ -5,7 +5,7 @@
 // file with line and column, a key, a parameter, a path), then what is wrong there, then what is allowed. Nothing else
 // is thrown, but for what a caller's own callbacks throw, which passes through as it is.
 //
-//     hills.toml:3:11: camera.fov_deg: out of range (400.0), allowed: 0.01 to 179.0 degrees
+//     hills.toml:3:11: camera.fov_deg: out of range (400.0), allowed: 0.01 to 179 degrees
 #pragma once
 
 #include <stdexcept>

@@ -40,7 +40,7 @@ using Vector = std::array<double, 3>;  // x, y, z
 struct Key {
     std::string name;     // "camera.fov_deg"
     std::string value;    // the present one, as TOML
-    std::string allowed;  // "0.01 to 179.0 degrees"
+    std::string allowed;  // "0.01 to 179 degrees"
     std::string meaning;
     bool matters = true;  // false: this kind of picture or surface ignores it
 };
@@ -133,13 +133,13 @@ struct Progress {
 
 struct RenderOptions {
     // Not empty, inside the frame; none: the whole frame. A window equals the same pixels of the frame.
-    std::optional<Window> window;
+    std::optional<Window> window{};
 
     Tracer tracer = Tracer::fast;
 
     // Independent passes of N x N samples a pixel, averaged, 1 to 1,000,000. None: one, or with either goal below as
     // many as it takes. Estimators "none", "super" and "uniform", whose passes are all alike, allow one.
-    std::optional<int> passes;
+    std::optional<int> passes{};
 
     // Until the noise of linear radiance is at most this RMSE with 95 % confidence, four passes at least; 1e-9 to 1e6,
     // 0: no goal.
@@ -153,10 +153,10 @@ struct RenderOptions {
 
     // Called some ten times a second at most, from any thread, never twice at once. What it throws ends the render and
     // is thrown by it.
-    std::function<void(const Progress&)> on_progress;
+    std::function<void(const Progress&)> on_progress{};
 
     // Ends the render soon after a stop is requested, which on_progress may do.
-    std::stop_token stop;
+    std::stop_token stop{};
 };
 
 // What a render did. Counts do not depend on threads; evaluations and steps vary a little with tiles and windows, whose
@@ -174,7 +174,7 @@ struct RenderReport {
     int threads = 0;                            // used
     std::chrono::duration<double> elapsed{0};   // tracing, shading, filtering; not set-up
     std::chrono::duration<double> cpu_time{0};  // of all threads
-    std::optional<double> noise_rmse;           // of linear radiance, told from passes: from two on
+    std::optional<double> noise_rmse{};         // of linear radiance, told from passes: from two on
 };
 
 // Linear RGB of a window of a frame: rows from the top, three floats a pixel.

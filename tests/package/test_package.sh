@@ -22,7 +22,7 @@ install_into() { # prefix component...
 configure() { # name prefix option...: sets output
     local name=$1 prefix=$2
     shift 2
-    output=$(cmake -G Ninja -S "$folder/$name" -B "$name" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" "$@" 2>&1) &&
+    output=$(cmake --fresh -G Ninja -S "$folder/$name" -B "$name" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" "$@" 2>&1) &&
         output=configured
 }
 
@@ -47,6 +47,18 @@ check_picture() {
     expect_match 'another scene is another file' "$(cmp example.exr other.exr 2>&1)" '*differ*'
     output=$(strata/example missing.toml 2>&1)
     expect_match 'an error names its place' "$?: $output" '1: missing.toml: *'
+}
+
+check_probes() {
+    local planet=(planet --set surface.spin_deg_per_s=90)
+    {
+        "$strata" probe ray "${planet[@]}" --pixel 640,360
+        "$strata" probe ray "${planet[@]}" --pixel 0,0
+        printf '0 0 100 0 0.01 -3\n0 0 100 0 0 1 0.5\n' | "$strata" probe ray "${planet[@]}"
+        printf '1 2 3\n1 2 3 0.25\n' | "$strata" probe field "${planet[@]}"
+    } >program.txt
+    expect_match 'some of the rays hit' "$(<program.txt)" '*true*'
+    expect 'rays and fields are those of the program to the last digit' "$(strata/probe_at 2>&1)" "$(<program.txt)"
 }
 
 # The program's numbers come from the reference path in double: f = y - F.
@@ -97,8 +109,10 @@ check_symbols() {
 
 install_into "$scratch/whole" noise strata
 install_into "$scratch/noise_alone" noise
+expect 'every public header is installed' "$(ls whole/include/strata)" "$(cd "$folder/../../src" && ls -- *.h)"
 expect 'the noise alone comes without the renderer' "$(find noise_alone -name '*strata.*' -o -name 'libstrata.a')" ''
 check_picture
+check_probes
 check_noise
 check_refusals
 check_symbols
