@@ -20,7 +20,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST_CASE("rays of the screen hit within the tolerance of f = 0, where they say, and end outside of the surface") {
     for (const char* name : {"terrain", "hyperterrain", "planet", "isosurface"}) {
-        const Scene scene = Scene::builtin(name);
+        Scene scene = Scene::builtin(name);
+        scene.set("surface.scale", 0.9);
         const Probe probe(scene);
         int hits = 0;
         for (int y = 20; y < scene.height(); y += 90) {
