@@ -56,7 +56,7 @@ struct Probe::Data {
     }
 
     glm::dmat3 orientation_at(double t) const {
-        const glm::dmat3 orientation = image.placement().orientation(t);
+        glm::dmat3 orientation = image.placement().orientation(t);
         if (std::isfinite(orientation[0][0])) return orientation;
         throw Error(fmt::format("time: {} s, allowed: where the surface's turns can be counted in double", t));
     }

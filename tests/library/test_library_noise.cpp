@@ -272,6 +272,22 @@ TEST_CASE("places too far and spans of unlike length are refused by name") {
     check_says(message_of([] { strata::use_simd_target("mmx"); }), "SIMD target 'mmx': ");
 }
 
+TEST_CASE("a point that is out of range spoils no other, on every SIMD target") {
+    for (const std::string& target : all_targets()) {
+        strata::use_simd_target(target);
+        const Fbm<2> fbm;
+        std::vector<float> x(40, 0.25f), y(40, 0.75f), whole(40), spoilt(40);
+        fbm.values({{}, {x, y}}, whole);
+        const std::array<float, 4> wrong = {std::nanf(""), INFINITY, 1e30f, -1e30f};
+        for (std::size_t i = 0; i < wrong.size(); ++i) x[3 * i + 1] = wrong[i];
+        fbm.values({{}, {x, y}}, spoilt);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            if (x[i] == 0.25f) CHECK(spoilt[i] == whole[i]);
+        }
+    }
+    strata::use_simd_target(all_targets().front());
+}
+
 TEST_CASE("an fBm is a value: copies and moved ones give the same sums") {
     const std::vector<float> at = {0.5f, 1.25f};
     std::vector<float> first(2), second(2);
