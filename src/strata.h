@@ -1,4 +1,6 @@
-// Strata as a library: procedural implicit surfaces, ray cast and antialiased with stratified B-spline samples.
+// Strata as a library: procedural implicit surfaces, ray cast and antialiased with stratified B-spline samples (Gamito
+// & Maddock, "Anti-aliasing with stratified B-spline filters of arbitrary degree", CGF 25(2), 2006).
+//
 // Installed as <strata/strata.h>; link Strata::strata. Noise alone is in <strata/noise.h>, Strata::noise.
 //
 //     strata::Scene scene = strata::Scene::builtin("terrain");
@@ -19,6 +21,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
