@@ -6,7 +6,7 @@
 #include "src/library/scene_data.h"
 #include "src/library/translate.h"
 #include "src/render/estimator.h"
-#include "src/render/surface_image.h"
+#include "src/integrate/surface_image.h"
 #include "src/scene/validate.h"
 
 namespace strata {

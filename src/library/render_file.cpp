@@ -4,7 +4,7 @@
 #include "src/image/picture_stream.h"
 #include "src/library/render_setting.h"
 #include "src/library/translate.h"
-#include "src/render/make_image.h"
+#include "src/integrate/make_image.h"
 #include "tools/picture_metadata.h"
 
 namespace strata {

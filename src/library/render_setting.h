@@ -8,7 +8,7 @@
 
 #include "src/render/cancel.h"
 #include "src/render/progressive.h"
-#include "src/render/surface_image.h"
+#include "src/integrate/surface_image.h"
 #include "src/scene/scene.h"
 #include "src/strata.h"
 

@@ -10,6 +10,7 @@
 
 using namespace strata;
 using namespace strata::integrate;
+using namespace strata::integrate;
 using namespace strata::render;
 using scene::SurfaceKind;
 

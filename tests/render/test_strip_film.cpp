@@ -12,6 +12,7 @@
 
 using namespace strata;
 using namespace strata::integrate;
+using namespace strata::integrate;
 using namespace strata::render;
 
 namespace {

@@ -15,6 +15,7 @@
 
 using namespace strata;
 using namespace strata::integrate;
+using namespace strata::integrate;
 using namespace strata::render;
 using scene::SurfaceKind;
 
