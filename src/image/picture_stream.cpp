@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
-#include <fstream>
 #include <vector>
 
 #include "src/image/digest.h"
@@ -92,12 +91,8 @@ struct PictureStream::State {
 
     // The header went first, so the digest of all bytes takes reading them back.
     void put_in_place() {
-        std::ifstream written(bytes.file().hidden_path(), std::ios::binary);
         const auto read = [&](std::int64_t offset, std::span<unsigned char> part) {
-            written.clear();
-            written.seekg(offset);
-            written.read(reinterpret_cast<char*>(part.data()), static_cast<std::streamsize>(part.size()));
-            return static_cast<std::size_t>(written.gcount());
+            return bytes.file().read_at(offset, part);
         };
         put_digest(format, read, [&](std::int64_t offset, std::span<const unsigned char> part) {
             bytes.file().write_at(offset, part);
@@ -135,7 +130,7 @@ void PictureStream::finish() {
 void PictureStream::finish_partial(const std::filesystem::path& path, const Metadata& metadata) {
     state_->encoder.write_rows_left();
     state_->close();
-    const std::filesystem::path& written = state_->bytes.file().hidden_path();
+    const std::filesystem::path written = state_->bytes.file().hidden_path();
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(name_of(format_of(path)));
     if (!input) throw ImageError(OIIO::geterror());
     OIIO::ImageSpec spec;
