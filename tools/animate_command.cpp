@@ -293,7 +293,7 @@ void add_animate_command(Command& program, int& exit_code) {
         "of other settings is refused before anything is rendered, unless --overwrite is given. Films alone keep their "
         "frames in FILE.frames until they "
         "are\n"
-        "encoded; interrupted, the same command goes on from them.\n"
+        "encoded (of two runs at once one has FILE-2.frames); interrupted, the same command goes on from them.\n"
         "A film of every second frame (--frames 0-100x2) shows half as many a second. A GIF shows up to 50 a second "
         "and\n"
         "leaves out the others; it plays as long as the frames take, to a hundredth of a second.\n"

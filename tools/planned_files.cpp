@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "src/image/file_paths.h"
-#include "src/image/image_error.h"
 #include "src/image/stream_target.h"
 #include "tools/errors.h"
 
@@ -16,7 +15,7 @@ namespace fs = std::filesystem;
 void PlannedFiles::plan(const fs::path& path) {
     const auto is_planned = [&](const image::OutputFile& file) { return image::is_one_file(file.target(), path); };
     if (std::ranges::any_of(files_, is_planned)) {
-        throw image::ImageError(fmt::format("cannot write \"{}\": another output is this file", path.string()));
+        throw UsageError(fmt::format("{}: allowed: a file of its own; another output is the same", path.string()));
     }
     image::check_replaceable(path);
     files_.emplace_back(path);

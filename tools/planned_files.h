@@ -32,7 +32,8 @@ bool is_written(const std::filesystem::path& path, const Write& write) {
 
 class PlannedFiles {
   public:
-    // Begins the file. Throws ImageError as image::check_replaceable() does, and for one that is planned already.
+    // Begins the file. Throws ImageError as image::check_replaceable() does, UsageError for one that is planned
+    // already.
     void plan(const std::filesystem::path& path);
 
     // Puts a planned file in place. A failure is told on standard error.

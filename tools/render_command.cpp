@@ -187,6 +187,8 @@ void add_render_command(Command& program, int& exit_code) {
         "shared.\n"
         "On SIGINT, SIGTERM or SIGHUP what is finished is written as NAME.partial.EXT, of several passes the mean of "
         "the whole ones; an earlier NAME.EXT stays.\n"
+        "A file that cannot be put in place is kept whole as NAME.kept.EXT, beside it or in TMPDIR, and told; the "
+        "others are written.\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 129, 130 or 143 interrupted.");
     command->callback([request, &exit_code] { exit_code = render_command(*request); });
 }
