@@ -63,7 +63,7 @@ class Maker {
 
     void make(const Figure& figure, const Plan& plan) {
         // Without its record a figure counts as unfinished, so that an interruption leaves none that is half new.
-        fs::remove(record_path(options_.folder, plan.number));
+        empty_record(record_path(options_.folder, plan.number));
         std::vector<image::Picture> pictures;
         for (const Part& part : plan.parts) pictures.push_back(render_part(part));
         stop_if_cancelled();

@@ -53,7 +53,7 @@ bool is_made(const Film& film, const fs::path& folder, bool quiet) {
 }
 
 bool make_film(const Film& film, const FilmOptions& options) {
-    fs::remove(record_path(film, options.folder));
+    empty_record(record_path(film, options.folder));
     std::vector<std::string> words{"animate"};
     words.insert(words.end(), film.settings.begin(), film.settings.end());
     for (const std::string& file : film_files(film)) {
