@@ -7,6 +7,9 @@ set -u
 
 tiny=(--size 32x18 -N 1 --quiet)
 
+# All names in this folder, hidden ones too, sorted.
+entries() { find . -mindepth 1 -maxdepth 1 -printf '%P\n' | LC_ALL=C sort | paste -sd ' '; }
+
 mode() { stat -c %a -- "$@" | tr '\n' ' '; }
 
 # Until a command that runs has begun so many files in the folder. Each is tried before, alone.
@@ -48,7 +51,7 @@ check_folder_in_the_way() {
         expect "a target that became a folder is an error ($options)" $? 1
         expect_match 'the whole files lie beside it, and that is said' "$(sort work/messages)" \
             '*"a.png": Is a directory; the whole file is "./a.kept.png"*"s.json": Is a directory; the whole file is "./s.kept.json"'
-        expect 'nothing else is there' "$(ls -A work | tr '\n' ' ')" 'a.exr a.kept.png a.png messages s.json s.kept.json '
+        expect 'nothing else is there' "$(cd work && entries) " 'a.exr a.kept.png a.png messages s.json s.kept.json '
         run render work/a.kept.png -o again.png --quiet
         expect_same_file 'what was kept is whole' again.png work/a.kept.png
         rm -rf work
@@ -73,7 +76,7 @@ check_reports_fail_alone() {
     mkdir c/converge.csv c/error-time.svg
     wait "$pid"
     expect 'so it is of a measurement' $? 1
-    expect 'all others of which are there' "$(ls -A c | tr '\n' ' ')" \
+    expect 'all others of which are there' "$(cd c && entries) " \
         'converge.csv converge.json converge.kept.csv error-samples.png error-samples.svg error-time.kept.svg error-time.png error-time.svg summary.md '
 }
 
@@ -86,7 +89,7 @@ check_mounted_file() {
     output=$(unshare -m bash -c 'mount --bind inside a.png && "$1" render edge --size 32x18 -N 1 --quiet -o a.png' - "$strata" 2>&1)
     expect 'a mounted file takes a picture' "$?: $output" '0: '
     expect_same_file 'whole, in its place' inside expected.png
-    expect 'and nothing is left' "$(ls -A | tr '\n' ' ')" 'a.png expected.png inside s.json '
+    expect 'and nothing is left' "$(entries) " 'a.png expected.png inside s.json '
 }
 
 # Everything that is written in the end, each by a command.
@@ -151,13 +154,13 @@ check_limits() {
         # shellcheck disable=SC2086 # two words
         refuses "metadata that a format does not hold are found first ($options)" 2 '*"a.tif": * bytes of metadata do not fit*' \
             render long.toml --size 32x18 -N 1 $options -o a.exr -o a.tif --stats s.json
-        expect 'and nothing is made' "$(ls -A)" long.toml
+        expect 'and nothing is made' "$(entries)" long.toml
     done
     refuses 'of frames too' 2 '*a.*.jpg*bytes of metadata do not fit*' animate long.toml --size 32x18 -N 1 --frames 0-1 -o a.jpg
     refuses 'of a strip too' 2 '*bytes of metadata do not fit*' strip --scene long.toml --size 32x18 --columns none -o a.jpg
     refuses 'a strip too large for JPEG is found first' 2 '*65500*' \
         strip --scene edge --size 2000x20 --columns "$(printf 'none;%.0s' {1..40})none" --zoom 1 -o a.jpg
-    expect 'and nothing is made' "$(ls -A)" long.toml
+    expect 'and nothing is made' "$(entries)" long.toml
 
     # An EXR of another program, its frame made smaller than its pixels.
     ffmpeg -v error -f lavfi -i color=red:s=16x16 -frames:v 1 over.exr </dev/null || return 0
@@ -181,7 +184,7 @@ check_one_file() {
     refuses 'reports are files of their own' 2 '*s/stability.json: allowed: a file of its own*' stability --fast -o s --json s/stability.json
     refuses 'frames too' 2 '*some frames of another -o are the same*' animate wheel --frames 8-10 --columns scene -o 'f.#.png' -o 'f.##.png'
     rm -rf s
-    expect 'and nothing is made' "$(ls -A | tr '\n' ' ')" 'd e link '
+    expect 'and nothing is made' "$(entries) " 'd e link '
     run render edge "${tiny[@]}" -o b.exr -o ./b.exr -o e/b.exr -o d/b.exr -o b.partial.exr
     expect 'one picture asked for twice is made once, whatever it is called' "$status: $output $(find . -name '*b*.exr' | sort | xargs)" \
         '0:  ./b.exr ./b.partial.exr ./d/b.exr'
@@ -191,13 +194,13 @@ check_names() {
     local long
     long=$(printf 'n%.0s' {1..251})
     run render edge "${tiny[@]}" --aov steps -o "$long.exr" -o "$long.PNG" --stats "$(printf 's%.0s' {1..255})"
-    expect 'names of 255 bytes are names, and those made of them fit' "$status: $output $(ls -A | wc -l)" '0:  4'
+    expect 'names of 255 bytes are names, and those made of them fit' "$status: $output $(entries | wc -w)" '0:  4'
     run strip --scene edge --size 32x18 --columns none --parts --quiet -o "$long.png"
-    expect 'of strips too' "$status: $output $(ls -A | wc -l)" '0:  6'
+    expect 'of strips too' "$status: $output $(entries | wc -w)" '0:  6'
     run animate wheel --size 16x16 -N 1 --frames 0-1 --quiet -o "$long.mp4" -o "$long.GIF"
-    expect 'of films too' "$status: $output $(ls -A | wc -l)" '0:  8'
+    expect 'of films too' "$status: $output $(entries | wc -w)" '0:  8'
     run animate wheel --size 16x16 -N 1 --frames 0-1 --quiet -o "$long.jpg"
-    expect 'of frames too' "$status: $output $(ls -A | wc -l)" '0:  10'
+    expect 'of frames too' "$status: $output $(entries | wc -w)" '0:  10'
     "$strata" scenes edge >'A #1 100%.TOML'
     run render 'A #1 100%.TOML' "${tiny[@]}"
     expect 'scenes are called as one likes' "$status: $output $(echo A*)" '0:  A #1 100%.TOML A #1 100%.exr A #1 100%.png'
@@ -219,13 +222,14 @@ check_partial_of_long_names() {
     kill -INT "$pid"
     wait "$pid"
     expect 'an interrupted render ends with 130' $? 130
-    expect_match 'what was finished has names that fit, none of them one that was asked for' "$(ls -A | xargs)" \
+    expect_match 'what was finished has names that fit, none of them one that was asked for' "$(entries)" \
         'a.partial-2.exr a.partial.partial.exr nnn*~????????.partial.exr'
 }
 
 check_two_writers() {
     # What stands in for ffmpeg tells how its file is called.
     mkdir fake
+    # shellcheck disable=SC2016 # for another shell
     printf '#!/bin/sh\nfor word; do :; done\necho "$word" >>%q\nexec /usr/bin/ffmpeg "$@"\n' "$PWD/names" >fake/ffmpeg
     chmod +x fake/ffmpeg
     local film=(animate wheel --size 64x64 --frames 0-30 --columns scene --quiet)
@@ -239,7 +243,7 @@ check_two_writers() {
     wait "$!"
     expect 'so does the second' $? 0
     expect 'the film is one of theirs' "$(cmp -s w.mp4 one.mp4 || cmp -s w.mp4 two.mp4 && echo yes)" yes
-    expect 'nothing else is left' "$(ls -A | xargs)" 'fake names one.mp4 two.mp4 w.mp4'
+    expect 'nothing else is left' "$(entries)" 'fake names one.mp4 two.mp4 w.mp4'
     expect 'their hidden files have names of their own' "$(grep -cx 'file:\.\{0,1\}/\{0,1\}\.strata-[a-z0-5]\{12\}' names) $(sort -u names | wc -l)" '2 2'
 }
 
