@@ -1,7 +1,5 @@
 // strata explain: what a render does, what it leaves out, and what it will cost.
-#include <filesystem>
 #include <memory>
-#include <system_error>
 
 #include "noise/simd_target.h"
 #include "src/image/file_paths.h"
@@ -19,8 +17,6 @@
 namespace strata::tools {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ExplainRequest {
     SceneArgument scene;
