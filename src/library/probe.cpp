@@ -43,11 +43,11 @@ glm::dvec3 near_unit_length(const glm::dvec3& direction) {
 struct Probe::Data {
     Data(const scene::Scene& valid, Tracer tracer)
         : scene(valid),
-          image(scene, tracer == Tracer::fast ? render::Tracer::fast : render::Tracer::reference),
+          image(scene, tracer == Tracer::fast ? integrate::Tracer::fast : integrate::Tracer::reference),
           mid_shutter_s(render::estimator_settings(scene).shutter.middle_s()) {}
 
     scene::Scene scene;
-    render::SurfaceImage image;
+    integrate::SurfaceImage image;
     double mid_shutter_s;
 
     double seconds(std::optional<double> time) const {
@@ -120,7 +120,7 @@ FieldValue Probe::field(const Vector& position, std::optional<double> time) cons
 }
 
 RayResult Probe::ray(const Vector& origin, const Vector& direction, std::optional<double> time) const {
-    const render::SurfaceImage& image = data_->image;
+    const integrate::SurfaceImage& image = data_->image;
     const double t = data_->seconds(time);
     const glm::dvec3 from = glm_vector("origin", origin);
     const glm::dvec3 along = near_unit_length(glm_vector("direction", direction));

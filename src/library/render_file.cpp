@@ -49,7 +49,7 @@ FileRender::FileRender(RenderSetting& setting, const fs::path& file, const FileO
               .exr_format = is_half ? image::ExrFormat::half : image::ExrFormat::floating,
               .exr_layout = options.tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic};
     metadata_ =
-        tools::picture_metadata(setting.scene(), w, setting.tracer() == render::Tracer::fast ? "fast" : "reference",
+        tools::picture_metadata(setting.scene(), w, setting.tracer() == integrate::Tracer::fast ? "fast" : "reference",
                                 is_half ? "half" : "float");
     if (options.tiled) metadata_.set("strata:tiled", "asked for");
 }
@@ -61,7 +61,7 @@ void FileRender::write(image::PictureStream& stream, std::span<const glm::vec3> 
 
 // One pass goes into its file while it is rendered.
 render::ProgressiveResult FileRender::streamed() {
-    const auto image = render::make_image(setting_.scene(), setting_.tracer());
+    const auto image = integrate::make_image(setting_.scene(), setting_.tracer());
     const render::Estimator estimator(render::estimator_settings(setting_.scene()));
     image::PictureStream stream(file_, shape_, metadata_, write_);
     render::ProgressiveResult result;
@@ -81,7 +81,7 @@ render::ProgressiveResult FileRender::streamed() {
 
 // The mean of several passes is known at their end.
 render::ProgressiveResult FileRender::in_passes() {
-    const auto image = render::make_image(setting_.scene(), setting_.tracer());
+    const auto image = integrate::make_image(setting_.scene(), setting_.tracer());
     render::ProgressiveResult result = render::render_progressively(
         *image, render::estimator_settings(setting_.scene()), setting_.window(), setting_.goal(), setting_.options());
     if (!is_whole(result.render)) return result;

@@ -7,7 +7,7 @@ namespace strata {
 RenderedImage render_image(const Scene& scene, const RenderOptions& options) {
     const RenderSetting setting(scene, options);
     RenderedImage made = translated([&] {
-        const auto image = render::make_image(setting.scene(), setting.tracer());
+        const auto image = integrate::make_image(setting.scene(), setting.tracer());
         const render::ProgressiveResult result = render::render_progressively(
             *image, render::estimator_settings(setting.scene()), setting.window(), setting.goal(), setting.options());
         const render::Window& w = setting.window();

@@ -73,7 +73,7 @@ RenderSetting::RenderSetting(const Scene& scene, const RenderOptions& options) {
         window_ = window_of(options.window, scene_.film);
         goal_ = goal_of(options, scene_.sampling.estimator);
         check_memory(window_, goal_);
-        tracer_ = options.tracer == Tracer::fast ? render::Tracer::fast : render::Tracer::reference;
+        tracer_ = options.tracer == Tracer::fast ? integrate::Tracer::fast : integrate::Tracer::reference;
         options_.threads = in_range("threads", options.threads, 0, kMostThreads);
         options_.tile = in_range("tile", options.tile, 1, kLargestTile);
         options_.cancel = &cancel_;
@@ -99,7 +99,7 @@ void RenderSetting::take_progress(const std::function<void(const Progress&)>& on
 }
 
 RenderReport report_of(const render::ProgressiveResult& result) {
-    const render::Counters& counters = result.render.counters;
+    const integrate::Counters& counters = result.render.counters;
     RenderReport report;
     report.is_complete = !result.render.cancelled;
     report.passes = result.passes;

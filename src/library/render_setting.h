@@ -25,7 +25,7 @@ class RenderSetting {
     const scene::Scene& scene() const { return scene_; }
     const render::Window& window() const { return window_; }
     const render::PassGoal& goal() const { return goal_; }
-    render::Tracer tracer() const { return tracer_; }
+    integrate::Tracer tracer() const { return tracer_; }
     const render::RenderOptions& options() const { return options_; }
 
     void cancel() { cancel_.request(); }
@@ -42,7 +42,7 @@ class RenderSetting {
     scene::Scene scene_;
     render::Window window_;
     render::PassGoal goal_;
-    render::Tracer tracer_ = render::Tracer::fast;
+    integrate::Tracer tracer_ = integrate::Tracer::fast;
     render::RenderOptions options_;
     render::CancelToken cancel_;
     std::exception_ptr callback_failure_;

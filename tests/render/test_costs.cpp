@@ -9,7 +9,6 @@
 
 using namespace strata;
 using namespace strata::integrate;
-using namespace strata::integrate;
 using namespace strata::render;
 using scene::EstimatorKind;
 using scene::SurfaceKind;

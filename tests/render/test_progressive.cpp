@@ -13,7 +13,6 @@
 
 using namespace strata;
 using namespace strata::integrate;
-using namespace strata::integrate;
 using namespace strata::render;
 using namespace strata::render::testing;
 using scene::EstimatorKind;

@@ -12,7 +12,6 @@
 
 using namespace strata;
 using namespace strata::integrate;
-using namespace strata::integrate;
 using namespace strata::render;
 
 namespace {

@@ -11,7 +11,6 @@
 
 using namespace strata;
 using namespace strata::integrate;
-using namespace strata::integrate;
 using namespace strata::render;
 using scene::EstimatorKind;
 using scene::SurfaceKind;

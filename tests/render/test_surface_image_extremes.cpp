@@ -12,7 +12,6 @@
 
 using namespace strata;
 using namespace strata::integrate;
-using namespace strata::integrate;
 using namespace strata::render;
 using scene::Scene;
 using scene::SurfaceKind;

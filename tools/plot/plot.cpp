@@ -105,7 +105,7 @@ void check_plot(const Plot& plot) {
     for (const PlotPanel& panel : plot.panels) check_panel(panel);
 }
 
-void write_plot(const Plot& plot, const fs::path& path) {
+std::vector<unsigned char> draw_plot(const Plot& plot, const fs::path& path) {
     const PlotFormat format = format_of(path);
     check_plot(plot);
     const fs::path program = gnuplot();
@@ -114,10 +114,12 @@ void write_plot(const Plot& plot, const fs::path& path) {
     std::ofstream(script, std::ios::binary) << plot_script(plot, format, drawn.string());
     // -d: no start-up files of the user or the system.
     run_program(program, {"-d", script.string()});
-    const std::vector<unsigned char> bytes = bytes_of(drawn);
+    std::vector<unsigned char> bytes = bytes_of(drawn);
     if (bytes.empty()) throw ProcessError("gnuplot drew nothing for " + path.string());
-    image::replace_file(path, bytes);
+    return bytes;
 }
+
+void write_plot(const Plot& plot, const fs::path& path) { image::replace_file(path, draw_plot(plot, path)); }
 
 void check_plotter() { gnuplot(); }
 
