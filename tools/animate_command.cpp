@@ -3,6 +3,7 @@
 #include <memory>
 #include <system_error>
 
+#include "src/image/image_error.h"
 #include "src/image/write.h"
 #include "src/render/cancel.h"
 #include "src/render/progress_printer.h"
@@ -65,8 +66,7 @@ class Animator {
 
     // False when it was stopped.
     bool run() {
-        std::error_code ignored;  // writing says what is wrong with the folder
-        if (!job_.scratch.empty() && !work_.empty()) fs::create_directory(job_.scratch, ignored);
+        if (!job_.scratch.empty() && !work_.empty()) make_scratch();
         for (const Todo& todo : work_) {
             if (!render_frame(todo)) return false;
             ++rendered_;
@@ -75,6 +75,13 @@ class Animator {
     }
 
   private:
+    void make_scratch() const {
+        std::error_code error;
+        fs::create_directory(job_.scratch, error);
+        if (!error) return;
+        throw image::ImageError(fmt::format("cannot make folder \"{}\": {}", job_.scratch.string(), error.message()));
+    }
+
     std::vector<Todo> find_work() const {
         std::vector<Todo> work;
         for (const int frame : job_.range) {

@@ -6,9 +6,9 @@
 #              of a run without faults
 #   lost       a pattern of files that may be gone afterwards: a record must not outlive what it tells of
 #   extra      a pattern of files that may be left in addition, for the next run of the same command
-#   env        more of the environment
+#   with_fakes whether other programs are the test's own
 # shellcheck disable=SC2034 # used by test_faults.sh
-declare -A words earlier varying lost extra environment
+declare -A words earlier varying lost extra with_fakes
 cases=()
 
 fault_case() { # name words...
@@ -36,8 +36,7 @@ earlier[frames]='a.0000.exr a.0001.png'
 fault_case film animate wheel --size 8x8 -N 1 --frames 0-1 --quiet -o a.webm -o a.mp4
 earlier[film]='a.mp4'
 extra[film]='a.webm.frames/frame.000?.png'
-# shellcheck disable=SC2016 # the test's own
-environment[film]='PATH=$fake:$PATH'
+with_fakes[film]=yes
 
 fault_case sweep sweep wheel --size 8x8 --N 1,2 --m 1 --quiet -o s
 earlier[sweep]='sweep wheel --size 8x8 --N 1,3 --m 1 --quiet -o s'
@@ -47,7 +46,6 @@ fault_case strip strip --scene wheel --size 8x8 --columns none,N=2 --parts --ref
 words[strip]=${words[strip]/,/;}
 earlier[strip]='s.png s-1.exr'
 
-# Of the records: FIGURE.json.
 fault_case plots figures --only 3 --size small --html --no-films --quiet -o f
 earlier[plots]='f/figure-3.png f/figure-3-samples.csv f/index.html f/figure-3.json'
 lost[plots]='f/figure-3.json'
