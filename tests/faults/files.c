@@ -19,6 +19,14 @@ static bool writes(int flags) { return (flags & O_ACCMODE) != O_RDONLY || create
 
 static mode_t mode_of(int flags, va_list rest) { return creates(flags) ? va_arg(rest, mode_t) : 0; }
 
+// Of what this process has written and nobody else has seen.
+static bool is_own(const char *path) { return strstr(path, "strata-") || strstr(path, "/proc/self/fd/"); }
+
+static int fault_of_opening(const char *path, int flags) {
+    if (writes(flags)) return fault_of(kind_open, path);
+    return is_own(path) && !(flags & (O_DIRECTORY | O_PATH)) ? fault_of(kind_read, path) : 0;
+}
+
 #define DEFINE_OPEN(name)                                                    \
     DECLARE_REAL(name)                                                       \
     int name(const char *path, int flags, ...) {                             \
@@ -26,7 +34,7 @@ static mode_t mode_of(int flags, va_list rest) { return creates(flags) ? va_arg(
         va_start(rest, flags);                                               \
         const mode_t mode = mode_of(flags, rest);                            \
         va_end(rest);                                                        \
-        if (writes(flags)) FAIL_IF(fault_of(kind_open, path), -1);           \
+        FAIL_IF(fault_of_opening(path, flags), -1);                          \
         return REAL(name)()(path, flags, mode);                              \
     }
 
@@ -37,14 +45,14 @@ static mode_t mode_of(int flags, va_list rest) { return creates(flags) ? va_arg(
         va_start(rest, flags);                                               \
         const mode_t mode = mode_of(flags, rest);                            \
         va_end(rest);                                                        \
-        if (writes(flags)) FAIL_IF(fault_of(kind_open, path), -1);           \
+        FAIL_IF(fault_of_opening(path, flags), -1);                          \
         return REAL(name)()(folder, path, flags, mode);                      \
     }
 
 #define DEFINE_FOPEN(name)                                                             \
     DECLARE_REAL(name)                                                                 \
     FILE *name(const char *path, const char *mode) {                                   \
-        if (strpbrk(mode, "wa+")) FAIL_IF(fault_of(kind_open, path), NULL);            \
+        FAIL_IF(fault_of_opening(path, strpbrk(mode, "wa+") ? O_RDWR : 0), NULL);      \
         return REAL(name)()(path, mode);                                               \
     }
 
@@ -60,6 +68,28 @@ int mkstemp(char *pattern) {
     FAIL_IF(fault_of(kind_open, pattern), -1);
     return REAL(mkstemp)()(pattern);
 }
+
+static int fault_of_read(int descriptor) {
+    char path[512];
+    path_of(descriptor, path, sizeof path);
+    return is_own(path) || strstr(path, "(deleted)") ? fault_of(kind_read, path) : 0;
+}
+
+DECLARE_REAL(read)
+ssize_t read(int descriptor, void *bytes, size_t count) {
+    FAIL_IF(fault_of_read(descriptor), -1);
+    return REAL(read)()(descriptor, bytes, count);
+}
+
+#define DEFINE_PREAD(name, offset_type)                                      \
+    DECLARE_REAL(name)                                                       \
+    ssize_t name(int descriptor, void *bytes, size_t count, offset_type at) { \
+        FAIL_IF(fault_of_read(descriptor), -1);                              \
+        return REAL(name)()(descriptor, bytes, count, at);                   \
+    }
+
+DEFINE_PREAD(pread, off_t)
+DEFINE_PREAD(pread64, off64_t)
 
 // How many of the bytes are to be written. Standard streams tell what happened, and are left alone.
 static int fault_of_write(int descriptor, size_t *count) {
