@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "noise/simd_target.h"
-#include "src/image/output_file.h"
 #include "src/render/progress_printer.h"
 
 namespace strata::tools {
@@ -194,7 +193,7 @@ std::string summary(const RunStatistics& statistics) {
     return text;
 }
 
-void write_statistics(const std::filesystem::path& path, const RunStatistics& statistics) {
+std::string statistics_json(const RunStatistics& statistics) {
     const render::Counters& c = statistics.counters;
     nlohmann::ordered_json json = {{"scene", statistics.scene},
                                    {"version", STRATA_VERSION},
@@ -214,8 +213,7 @@ void write_statistics(const std::filesystem::path& path, const RunStatistics& st
     if (!statistics.settings_mark.empty()) json["settings_mark"] = statistics.settings_mark;
     if (statistics.passes) json.update(passes_json(*statistics.passes));
     // A scene's file name need not be UTF-8.
-    const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-    image::replace_file(path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace strata::tools

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -39,7 +38,7 @@ RunStatistics collect(const render::ProgressiveResult& result, const render::Pas
 // A few lines for people.
 std::string summary(const RunStatistics& statistics);
 
-// As JSON, written beside and renamed. Throws ImageError when that fails.
-void write_statistics(const std::filesystem::path& path, const RunStatistics& statistics);
+// The --stats file.
+std::string statistics_json(const RunStatistics& statistics);
 
 }  // namespace strata::tools

@@ -29,6 +29,11 @@ struct WriteOptions {
 // memory beside a whole picture.
 inline constexpr int kStripRows = 64;
 
+// Throws ImageError for all that would keep a picture of this shape from being encoded, whatever its pixels are: the
+// limits of the format, windows, metadata, options. For before the work. Only the extension of `path` is used.
+void check_encodable(const std::filesystem::path& path, const PictureShape& shape, const Metadata& metadata,
+                     const WriteOptions& options);
+
 // EXR: linear, zip, in scanlines or tiles of 64x64; TIFF: 16 bits, zip; PNG: 8 bits; JPEG: 8 bits, quality 95, no
 // chroma subsampling. The last three are multiplied by 2^exposure, clamped, passed through sRGB's transfer function and
 // rounded to the nearest code. EXR and TIFF keep the crop as data window and the frame as display window; PNG and JPEG

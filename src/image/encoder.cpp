@@ -138,11 +138,17 @@ OIIO::ImageSpec make_spec(const std::filesystem::path& path, Format format, cons
 
 }  // namespace
 
+void check_encodable(const std::filesystem::path& path, const PictureShape& shape, const Metadata& metadata,
+                     const WriteOptions& options) {
+    check_shape(path, shape);
+    if (!std::isfinite(options.exposure)) fail(path, fmt::format("an exposure of {} stops", options.exposure));
+    make_spec(path, format_of(path), shape, metadata, options);
+}
+
 Encoder::Encoder(const std::filesystem::path& path, const PictureShape& shape, const Metadata& metadata,
                  const WriteOptions& options, OIIO::Filesystem::IOProxy& bytes)
     : path_(path), format_(format_of(path)), shape_(shape), options_(options) {
-    check_shape(path, shape);
-    if (!std::isfinite(options.exposure)) fail(path, fmt::format("an exposure of {} stops", options.exposure));
+    check_encodable(path, shape, metadata, options);
     configure_library();
     const OIIO::ImageSpec spec = make_spec(path, format_, shape, metadata, options);
     output_ = OIIO::ImageOutput::create(name_of(format_));
