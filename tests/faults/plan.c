@@ -11,11 +11,11 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-static const char *const kind_names[kind_count] = {"open",   "write",    "read",  "fsync", "rename", "link",
+static const char* const kind_names[kind_count] = {"open",   "write",    "read",  "fsync", "rename", "link",
                                                    "unlink", "truncate", "mkdir", "close", "spawn",  "thread"};
 
 static const struct {
-    const char *name;
+    const char* name;
     int error;
 } errors[] = {{"ENOSPC", ENOSPC}, {"EIO", EIO},       {"EACCES", EACCES}, {"EBUSY", EBUSY}, {"EMFILE", EMFILE},
               {"EAGAIN", EAGAIN}, {"EDQUOT", EDQUOT}, {"EINTR", EINTR},   {"SHORT", kShort}};
@@ -25,16 +25,16 @@ static pthread_once_t plan_once = PTHREAD_ONCE_INIT;
 static atomic_long calls[kind_count];
 
 // A test with a misspelt plan must not pass.
-static void refuse(const char *text) {
+static void refuse(const char* text) {
     fprintf(stderr, "faults: '%s' is no plan; allowed: KIND:N:ERROR\n", text);
     _exit(99);
 }
 
-static void read_fault(const char *text) {
+static void read_fault(const char* text) {
     struct fault fault = {0, 0, 0, 0};
     char kind[16], error[16];
-    char *end;
-    const char *colon = strchr(text, ':');
+    char* end;
+    const char* colon = strchr(text, ':');
     if (!colon || sscanf(text, "%15[a-z]:%*[0-9+]:%15[A-Z]", kind, error) != 2) refuse(text);
     while (fault.kind < kind_count && strcmp(kind, kind_names[fault.kind]) != 0) ++fault.kind;
     fault.first = fault.last = strtol(colon + 1, &end, 10);
@@ -61,27 +61,27 @@ static void read_plan(void) {
     unsetenv("LD_PRELOAD");
 }
 
-const struct plan *the_plan(void) {
+const struct plan* the_plan(void) {
     pthread_once(&plan_once, read_plan);
     return &plan;
 }
 
 static int error_of_call(enum kind kind, long number) {
-    for (const struct fault *fault = plan.faults; fault < plan.faults + plan.fault_count; ++fault) {
+    for (const struct fault* fault = plan.faults; fault < plan.faults + plan.fault_count; ++fault) {
         if (fault->kind == (int)kind && fault->first <= number && number <= fault->last) return fault->error;
     }
     return 0;
 }
 
-int fault_of(enum kind kind, const char *what) {
+int fault_of(enum kind kind, const char* what) {
     const int interrupted_errno = errno;
     the_plan();
     const long number = atomic_fetch_add(&calls[kind], 1) + 1;
     const int error = error_of_call(kind, number);
     if (plan.log >= 0) {
         char line[1024];
-        int length = snprintf(line, sizeof line, "%s %ld %s %s\n", kind_names[kind], number,
-                              error ? "failed" : "called", what);
+        int length =
+            snprintf(line, sizeof line, "%s %ld %s %s\n", kind_names[kind], number, error ? "failed" : "called", what);
         if (length >= (int)sizeof line) length = sizeof line - 1;
         syscall(SYS_write, plan.log, line, (size_t)length);
     }
@@ -89,7 +89,7 @@ int fault_of(enum kind kind, const char *what) {
     return error;
 }
 
-void path_of(int descriptor, char *path, size_t size) {
+void path_of(int descriptor, char* path, size_t size) {
     const int interrupted_errno = errno;
     char link[64];
     snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);

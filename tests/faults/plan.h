@@ -4,8 +4,9 @@
 //                                    disk. KIND is a name in plan.c, ERROR an errno's name in plan.c, or SHORT: a write
 //                                    of half the bytes. Several, with commas between, at once
 //   STRATA_TEST_FAULT_LOG=FILE       gets a line for every call that counts: kind, number, "failed" or "called", what
-//   STRATA_TEST_SPAWN_PAUSE=S        posix_spawn() returns S seconds after the program was started, or when a signal comes
-//   STRATA_TEST_THREADS=K            pthread_create() fails, as under a limit of processes, while K threads are alive
+//   STRATA_TEST_SPAWN_PAUSE=S        posix_spawn() returns S seconds after the program was started, or when a signal
+//   comes STRATA_TEST_THREADS=K            pthread_create() fails, as under a limit of processes, while K threads are
+//   alive
 //
 // All are taken out of the environment, LD_PRELOAD with them, so that programs that this one runs are left alone.
 #pragma once
@@ -39,31 +40,31 @@ struct fault {
 struct plan {
     struct fault faults[4];
     int fault_count;
-    int log;        // descriptor, or -1
-    double pause_s; // after posix_spawn()
-    int threads;    // -1: no limit
+    int log;         // descriptor, or -1
+    double pause_s;  // after posix_spawn()
+    int threads;     // -1: no limit
 };
 
 enum { kShort = -1 };
 
-const struct plan *the_plan(void);
+const struct plan* the_plan(void);
 
 // Counts a call. 0: go on; otherwise errno, or kShort, of which only writes know.
-int fault_of(enum kind kind, const char *what);
+int fault_of(enum kind kind, const char* what);
 
 // The path that a descriptor stands for.
-void path_of(int descriptor, char *path, size_t size);
+void path_of(int descriptor, char* path, size_t size);
 
 // As fault_of(), for what is done to a descriptor.
 int fault_of_descriptor(enum kind kind, int descriptor);
 
 // The next function of this name: the system's.
 #define REAL(name) real_##name
-#define DECLARE_REAL(name)                                                                  \
-    static __typeof__(&name) REAL(name)(void) {                                             \
-        static __typeof__(&name) found;                                                     \
-        if (!found) found = (__typeof__(&name))dlsym(RTLD_NEXT, #name);                     \
-        return found;                                                                       \
+#define DECLARE_REAL(name)                                              \
+    static __typeof__(&name) REAL(name)(void) {                         \
+        static __typeof__(&name) found;                                 \
+        if (!found) found = (__typeof__(&name))dlsym(RTLD_NEXT, #name); \
+        return found;                                                   \
     }
 
 // The wrapper's answer when its call is to fail.

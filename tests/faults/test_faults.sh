@@ -114,7 +114,7 @@ state_of() { # case file
 
 # One run with a fault; says "fired" when it has come to it.
 check_fault() { # case kind n error
-    local name="$1 with $2:$3:$4" file state missing=() reason=${reasons[$4]-} told='' failed
+    local name="$1 with $2:$3:$4" file state missing=() reason told='' failed
     cp -r ../before work
     ln -s ../before ../after .
     run_case "$1" "$2:$3:$4"
@@ -141,6 +141,9 @@ check_fault() { # case kind n error
     fi
     ((status != 0)) || return
     [[ $4 != @(SHORT|EINTR) ]] || expect "$name is no error" "$status: $output" '0: '
+    reason=${reasons[${4%%,*}]-}
+    # Of two faults the graver one is told.
+    [[ $4 != *,write:*:ENOSPC ]] || reason="@($reason|${reasons[ENOSPC]})"
     [[ $2 == thread ]] || expect_match "$name tells the reason" "$output" "*$reason*"
     # A table that is written again and again may be whole, and not the newest.
     for file in $(files_in after) "$PWD/tmp" "${failed##*/}"; do
@@ -200,6 +203,10 @@ check_case() { # case
         for which in "${!errors[@]}"; do
             for n in $(numbers_of "$kind" "$which" "$count"); do attempt "$1" "$kind" "$n" "${errors[which]}"; done
         done
+    done
+    # A file that cannot be named may be copied, and then the disk is full.
+    for n in $([[ ! $every ]] || seq 1 $(($(grep -c '^write ' log) * 2))); do
+        attempt "$1" rename 1+ "EACCES,write:$n:ENOSPC"
     done
     fired=$(find . -name 'fired.*' | wc -l)
     echo "$1: $fired faults"

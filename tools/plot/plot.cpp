@@ -105,7 +105,8 @@ std::string drawing(const fs::path& drawn, const fs::path& path) {
     std::string why;
     const std::optional<std::string> bytes = read_text_file(drawn, why);
     if (!bytes) {
-        throw ProcessError(fmt::format("cannot write \"{}\": what gnuplot drew cannot be read: {}", path.string(), why));
+        throw ProcessError(
+            fmt::format("cannot write \"{}\": what gnuplot drew cannot be read: {}", path.string(), why));
     }
     if (bytes->empty()) throw ProcessError("gnuplot drew nothing for " + path.string());
     return *bytes;
