@@ -1,19 +1,23 @@
 #include <fmt/format.h>
 
+#include <list>
 #include <memory>
+#include <optional>
 #include <system_error>
 
-#include "src/image/image_error.h"
 #include "src/image/write.h"
 #include "src/render/cancel.h"
 #include "src/render/progress_printer.h"
 #include "tools/already_there.h"
 #include "tools/animate/film.h"
+#include "tools/animate/frames_folder.h"
 #include "tools/animate/job.h"
 #include "tools/animate/sheet.h"
 #include "tools/batch_progress.h"
 #include "tools/commands.h"
+#include "tools/endings.h"
 #include "tools/errors.h"
+#include "tools/planned_files.h"
 #include "tools/render_picture.h"
 #include "tools/standard_output.h"
 
@@ -64,24 +68,21 @@ class Animator {
     int rendered() const { return rendered_; }
     std::uint64_t unresolved() const { return unresolved_; }
 
-    // False when it was stopped.
+    // Of files that could not be written, as was told.
+    bool all_written() const { return all_written_; }
+    bool has_film_source() const { return has_film_source_; }
+
+    // False when it was stopped. Ends early where no file of a frame can be written.
     bool run() {
-        if (!job_.scratch.empty() && !work_.empty()) make_scratch();
         for (const Todo& todo : work_) {
             if (!render_frame(todo)) return false;
+            if (!any_written_) return true;
             ++rendered_;
         }
         return !cancel_.requested();
     }
 
   private:
-    void make_scratch() const {
-        std::error_code error;
-        fs::create_directory(job_.scratch, error);
-        if (!error) return;
-        throw image::ImageError(fmt::format("cannot make folder \"{}\": {}", job_.scratch.string(), error.message()));
-    }
-
     std::vector<Todo> find_work() const {
         std::vector<Todo> work;
         for (const int frame : job_.range) {
@@ -120,13 +121,12 @@ class Animator {
         return true;
     }
 
-    void write(const Todo& todo, const std::vector<scene::Scene>& scenes,
-               const std::vector<image::Picture>& pictures) const {
+    void write(const Todo& todo, const std::vector<scene::Scene>& scenes, const std::vector<image::Picture>& pictures) {
         const image::Metadata metadata = frame_metadata(job_, todo.frame);
         if (job_.columns.empty()) {
-            for (const fs::path& path : todo.missing) {
+            write_each(todo, [&](const fs::path& path) {
                 image::write_picture(path, pictures.front(), metadata, job_.write);
-            }
+            });
             return;
         }
         std::vector<image::Canvas> canvases;
@@ -134,7 +134,21 @@ class Animator {
             canvases.push_back(image::to_canvas(pictures[i], scenes[i].film.exposure));
         }
         const image::Canvas sheet = side_by_side(job_.columns, std::move(canvases));
-        for (const fs::path& path : todo.missing) image::write_canvas(path, sheet, metadata);
+        write_each(todo, [&](const fs::path& path) { image::write_canvas(path, sheet, metadata); });
+    }
+
+    template <class Write>
+    void write_each(const Todo& todo, const Write& write) {
+        any_written_ = false;
+        for (const fs::path& path : todo.missing) {
+            const bool written = is_written(path, [&] { write(path); });
+            any_written_ |= written;
+            all_written_ &= written;
+            const bool is_source =
+                !job_.films.empty() && path == job_.frames[job_.film_source].pattern.path(todo.frame);
+            has_film_source_ &= written || !is_source;
+        }
+        has_film_source_ &= any_written_;
     }
 
     const AnimateJob& job_;
@@ -144,14 +158,43 @@ class Animator {
     BatchProgress progress_;
     int rendered_ = 0;
     std::uint64_t unresolved_ = 0;
+    bool any_written_ = true, all_written_ = true, has_film_source_ = true;
 };
 
-void remove_scratch(const AnimateJob& job) {
-    if (job.scratch.empty()) return;
+// Their folder goes by itself.
+void remove_scratch_frames(const AnimateJob& job) {
     std::error_code ignored;
-    const FramePattern& pattern = job.frames[job.film_source].pattern;
-    for (const int frame : job.range) fs::remove(pattern.path(frame), ignored);
-    fs::remove(job.scratch, ignored);  // unless there is something else in it
+    const FrameOutput& source = job.frames[job.film_source];
+    if (!source.is_scratch) return;
+    for (const int frame : job.range) fs::remove(source.pattern.path(frame), ignored);
+}
+
+struct FilmOutput {
+    explicit FilmOutput(const fs::path& film) : path(film), file(film) {}
+
+    fs::path path;
+    image::ScratchFile file;
+};
+
+// Each fails alone. False if one did.
+bool make_films(const AnimateJob& job, std::list<FilmOutput>& films, const render::CancelToken& cancel) {
+    bool all = true;
+    for (FilmOutput& film : films) {
+        const FilmTiming timing = film_timing(film.path, job.range, job.scene.shutter.fps);
+        try {
+            encode_film(film.path, film.file, job.frames[job.film_source].pattern, timing, job.width, job.height);
+            if (!cancel.requested()) film.file.place();
+        } catch (const std::exception& error) {
+            // The signal that stopped this program stopped ffmpeg too.
+            if (cancel.requested()) return false;
+            print_error(message_of(error));
+            all = false;
+            continue;
+        }
+        if (cancel.requested()) return false;
+        if (!job.quiet) print_out(fmt::format("wrote    {} ({})\n", film.path.string(), described(timing, job.range)));
+    }
+    return all;
 }
 
 void say_what_was_done(const AnimateJob& job, const Animator& animator) {
@@ -162,7 +205,8 @@ void say_what_was_done(const AnimateJob& job, const Animator& animator) {
     }
     print_out(fmt::format("frames   {} rendered, {} kept\n", animator.rendered(), animator.kept()));
     for (const FrameOutput& output : job.frames) {
-        if (!output.is_scratch) print_out(fmt::format("wrote    {}\n", output.pattern.text()));
+        if (output.is_scratch || !animator.all_written()) continue;
+        print_out(fmt::format("wrote    {}\n", output.pattern.text()));
     }
 }
 
@@ -177,25 +221,24 @@ int stopped(const AnimateJob& job, const Animator& animator) {
 int animate_command(const AnimateRequest& request) {
     static render::CancelToken cancel;
     render::cancel_on_signals(cancel);
-    const AnimateJob job = prepare_animation(request);
+    AnimateJob job = prepare_animation(request);
+    std::list<FilmOutput> films;
+    for (const fs::path& film : job.films) films.emplace_back(film);
+    std::optional<FramesFolder> folder;
+    if (has_scratch_frames(job)) add_scratch_frames(job, folder.emplace(job.films.front()).path());
     Animator animator(job, cancel);
     if (!animator.run()) return stopped(job, animator);
     say_what_was_done(job, animator);
-    for (const fs::path& film : job.films) {
-        const FilmTiming timing = film_timing(film, job.range, job.scene.shutter.fps);
-        try {
-            encode_film(film, job.frames[job.film_source].pattern, timing, job.width, job.height);
-        } catch (const std::exception&) {
-            // The signal that stopped this program stopped ffmpeg too.
-            if (!cancel.requested()) throw;
-        }
+    bool all_written = animator.all_written();
+    if (animator.has_film_source() && !films.empty()) {
+        const bool all_made = make_films(job, films, cancel);
         if (cancel.requested()) return kExitSignal + render::cancelling_signal();
-        if (!job.quiet) {
-            print_out(fmt::format("wrote    {} ({})\n", film.string(), described(timing, job.range)));
-        }
+        if (all_made) remove_scratch_frames(job);
+        all_written &= all_made;
+    } else if (!films.empty()) {
+        print_error("no film was made: some of its frames could not be written");
     }
-    remove_scratch(job);
-    return 0;
+    return all_written ? 0 : kExitRuntime;
 }
 
 void add_column_options(Command& command, AnimateRequest& request) {

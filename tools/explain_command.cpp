@@ -4,14 +4,14 @@
 #include <system_error>
 
 #include "noise/simd_target.h"
-#include "src/image/image_error.h"
-#include "src/image/output_file.h"
+#include "src/image/file_paths.h"
 #include "src/render/cancel.h"
 #include "src/render/progressive.h"
 #include "tools/aov.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
 #include "tools/explain/explanation.h"
+#include "tools/planned_files.h"
 #include "tools/scene_argument.h"
 #include "tools/settings_mark.h"
 #include "tools/standard_output.h"
@@ -30,19 +30,14 @@ struct ExplainRequest {
 
 constexpr int kMostThreads = 1024;
 
-bool same_file(const fs::path& a, const fs::path& b) {
-    std::error_code error;
-    return fs::equivalent(a, b, error) && !error;
-}
-
-void check_json(const ExplainRequest& request, const LoadedScene& loaded) {
+void plan_json(const ExplainRequest& request, const LoadedScene& loaded, PlannedFiles& files) {
     if (request.json.empty()) return;
     for (const std::string& input : {loaded.source, request.statistics}) {
-        if (!input.empty() && same_file(input, request.json)) {
+        if (!input.empty() && image::is_one_file(input, request.json)) {
             throw UsageError("--json " + request.json + ": this is what is to be read; allowed: a file of its own");
         }
     }
-    image::check_replaceable(request.json);
+    files.plan(request.json);
     keep_output_for(request.json);
 }
 
@@ -64,7 +59,8 @@ int explain_command(const ExplainRequest& request) {
     explanation.scene = loaded.scene;
     const std::string passes_text = !request.passes.empty() ? request.passes : loaded.passes.value_or("1");
     int passes = parse_integer("--passes", passes_text, 1, render::kMostPasses);
-    check_json(request, loaded);
+    PlannedFiles files;
+    plan_json(request, loaded, files);
     if (!request.statistics.empty()) {
         const std::string mark = settings_mark(loaded.scene, explanation.window, explanation.tracer);
         explanation.recorded = read_recorded(request.statistics, mark, count_rays(loaded.scene, explanation.window));
@@ -75,12 +71,9 @@ int explain_command(const ExplainRequest& request) {
     explanation.prediction = predict(
         loaded.scene, explanation.window,
         {.tracer = tracer, .threads = threads, .passes = passes, .aovs = aovs, .with_pilot = !request.no_pilot});
-    if (!request.json.empty()) {
-        const std::string text = explanation_json(explanation);
-        image::replace_file(request.json, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
-    }
+    if (!request.json.empty()) files.write(request.json, explanation_json(explanation));
     if (!request.quiet) print_out(explanation_text(explanation));
-    return 0;
+    return files.all_written() ? 0 : kExitRuntime;
 }
 
 }  // namespace

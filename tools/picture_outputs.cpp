@@ -21,11 +21,16 @@ PictureOutputs::PictureOutputs(const Job& job) : job_(job) {
     for (const Aov aov : job.aovs) costs_.emplace_back(job, aov);
 }
 
+void PictureOutputs::begin(Output& output, const image::Metadata& metadata) {
+    output.stream.emplace(std::move(output.file), job_.shape(), metadata, job_.write);
+}
+
 void PictureOutputs::begin(const image::Metadata& metadata) {
-    for (Output& output : outputs_) {
-        is_written(output.path,
-                   [&] { output.stream.emplace(std::move(output.file), job_.shape(), metadata, job_.write); });
-    }
+    for (Output& output : outputs_) begin(output, metadata);
+}
+
+void PictureOutputs::begin_late(const image::Metadata& metadata) {
+    for (Output& output : outputs_) is_written(output.path, [&] { begin(output, metadata); });
 }
 
 // Of each file that is left: a failure ends that file alone.

@@ -23,8 +23,10 @@ class PictureOutputs {
     // Throws ImageError when one cannot be begun.
     explicit PictureOutputs(const Job& job);
 
-    // Their heads, once what they are to say is known.
+    // Their heads, once what they are to say is known: before the first ray, where one that fails is an error of all,
+    // or when all passes are done and each fails alone.
     void begin(const image::Metadata& metadata);
+    void begin_late(const image::Metadata& metadata);
 
     // The next image::kStripRows rows, or those that are left.
     void write(const render::Film& strip);
@@ -55,6 +57,7 @@ class PictureOutputs {
         image::OutputFile file;
     };
 
+    void begin(Output& output, const image::Metadata& metadata);
     template <class Action>
     void for_each(const Action& action);
     void write_rows(std::span<const glm::vec3> pixels, std::span<const float> extra);

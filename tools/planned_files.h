@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "src/image/output_file.h"
+#include "tools/endings.h"
 #include "tools/standard_output.h"
 
 namespace strata::tools {
@@ -24,7 +25,7 @@ bool is_written(const std::filesystem::path& path, const Write& write) {
     } catch (const std::bad_alloc&) {
         print_error("out of memory while writing \"" + path.string() + "\"");
     } catch (const std::exception& error) {
-        print_error(error.what());
+        print_error(message_of(error));
     }
     return false;
 }

@@ -66,7 +66,7 @@ Rendered render_in_passes(const Job& job, PictureOutputs& outputs, const render:
     result = render::render_progressively(*image, render::estimator_settings(job.loaded.scene), job.window, job.goal,
                                           options);
     tell_end(result);
-    outputs.begin(metadata_of(job, result));
+    outputs.begin_late(metadata_of(job, result));
     outputs.write_whole(result.render.film);
     rendered.all_written = finish(outputs, job, result);
     return rendered;

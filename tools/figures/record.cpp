@@ -1,7 +1,6 @@
 #include "tools/figures/record.h"
 
 #include <fstream>
-#include <span>
 
 #include "src/image/digest.h"
 #include "src/image/output_file.h"
@@ -35,7 +34,7 @@ bool has_its_bytes(const fs::path& file, const ordered_json& digest, bool quiet)
 void write_record(const fs::path& path, ordered_json record, const std::vector<std::string>& files) {
     for (const std::string& file : files) record[kDigests][file] = image::digest_of_file(path.parent_path() / file);
     const std::string text = record.dump() + "\n";
-    image::replace_file(path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+    image::replace_file(path, text);
 }
 
 bool is_made(const fs::path& path, const ordered_json& record, const std::vector<std::string>& files, bool quiet) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
-#include <span>
 #include <system_error>
 
 #include "src/image/format.h"
@@ -101,7 +100,7 @@ void write_script(const fs::path& script, const std::string& text, const fs::pat
 }
 
 // What gnuplot has drawn for `path`.
-std::string drawing(const fs::path& drawn, const fs::path& path) {
+std::vector<unsigned char> drawing(const fs::path& drawn, const fs::path& path) {
     std::string why;
     const std::optional<std::string> bytes = read_text_file(drawn, why);
     if (!bytes) {
@@ -109,7 +108,7 @@ std::string drawing(const fs::path& drawn, const fs::path& path) {
             fmt::format("cannot write \"{}\": what gnuplot drew cannot be read: {}", path.string(), why));
     }
     if (bytes->empty()) throw ProcessError("gnuplot drew nothing for " + path.string());
-    return *bytes;
+    return {bytes->begin(), bytes->end()};
 }
 
 }  // namespace
@@ -128,7 +127,7 @@ void check_plot(const Plot& plot) {
     for (const PlotPanel& panel : plot.panels) check_panel(panel);
 }
 
-void write_plot(const Plot& plot, const fs::path& path) {
+std::vector<unsigned char> draw_plot(const Plot& plot, const fs::path& path) {
     const PlotFormat format = format_of(path);
     check_plot(plot);
     const fs::path program = gnuplot();
@@ -137,9 +136,10 @@ void write_plot(const Plot& plot, const fs::path& path) {
     write_script(script, plot_script(plot, format, drawn.string()), path);
     // -d: no start-up files of the user or the system.
     run_program(program, {"-d", script.string()});
-    const std::string bytes = drawing(drawn, path);
-    image::replace_file(path, std::span(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+    return drawing(drawn, path);
 }
+
+void write_plot(const Plot& plot, const fs::path& path) { image::replace_file(path, draw_plot(plot, path)); }
 
 void check_plotter() { gnuplot(); }
 
