@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What is left when writing fails: every command of fault_cases.sh is run with its n-th call of a kind failing, for every
-# n until it ends without that. PROGRAM PRELOAD [--every | CASE...]; without --every some n, and the likelier errors.
+# n until it ends without that. PROGRAM PRELOAD [--every] [CASE...]; without --every some n, and the likelier errors.
 set -u
 shopt -s extglob globstar
 
@@ -9,8 +9,10 @@ here=${BASH_SOURCE[0]%/*}
 . "$here/../tools/cli_checks.sh"
 # shellcheck source=tests/faults/fault_cases.sh
 . "$here/fault_cases.sh"
-preload=$(readlink -f -- "${2:?usage: ${0##*/} PROGRAM PRELOAD [--every]}")
-every=$([[ ${3-} == --every ]] && echo yes)
+preload=$(readlink -f -- "${2:?usage: ${0##*/} PROGRAM PRELOAD [--every] [CASE...]}")
+shift 2
+every=''
+[[ ${1-} != --every ]] || { every=yes && shift; }
 fake=$scratch/fake
 
 declare -A reasons=([ENOSPC]='No space left on device' [EIO]='Input/output error' [EACCES]='Permission denied'
@@ -190,7 +192,7 @@ numbers_of() { # kind, which of its errors, count
         [[ $1 != @(open|write) ]] || seq -f '%g+' 1 $(($3 - 1))
     elif (($3 > 0)); then
         echo "$3"
-        [[ $1 != @(open|write|read|mkdir) || $3 == 1 || $2 != 0 ]] || echo 1
+        [[ $1 != @(write|mkdir) || $3 == 1 || $2 != 0 ]] || echo 1
     fi
 }
 
@@ -217,7 +219,7 @@ check_case() { # case
 make_fake_programs
 groups=()
 for name in "${cases[@]}"; do
-    [[ ! ${3-} || $every || " ${*:3} " == *" $name "* ]] || continue
+    [[ $# == 0 || " $* " == *" $name "* ]] || continue
     eval "check_$name() { check_case $name; }"
     groups+=("check_$name")
 done
