@@ -184,11 +184,15 @@ attempt() { # case kind n error
     cd .. && rm -rf "$folder"
 }
 
-# Of every call, of writes and opens also with all after it; or the first and the last. A file that is read in many parts is
-# like another.
+# A file that is read in many parts is like another.
+most_of() { # kind count
+    if [[ $1 == read && $2 -gt 30 ]]; then echo 30; else echo $(($2 + 1)); fi
+}
+
+# Of every call, of writes and opens also with all after it; or the first and the last.
 numbers_of() { # kind, which of its errors, count
     if [[ $every && $2 == 0 ]]; then
-        seq 1 $(($3 < 30 ? $3 + 1 : 30))
+        seq 1 "$(most_of "$1" "$3")"
         [[ $1 != @(open|write) ]] || seq -f '%g+' 1 $(($3 - 1))
     elif (($3 > 0)); then
         echo "$3"
