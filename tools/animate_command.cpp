@@ -27,6 +27,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kMostFailures = 2;
+
 // A frame that is not there yet, and which of its files are to be written.
 struct Todo {
     int frame = 0;
@@ -72,12 +74,11 @@ class Animator {
     bool all_written() const { return all_written_; }
     bool has_film_source() const { return has_film_source_; }
 
-    // False when it was stopped. Ends early where no file of a frame can be written.
+    // False when it was stopped. Ends early where no file of two frames in a row can be written.
     bool run() {
         for (const Todo& todo : work_) {
             if (!render_frame(todo)) return false;
-            if (!any_written_) return true;
-            ++rendered_;
+            if (failed_in_a_row_ == kMostFailures) return true;
         }
         return !cancel_.requested();
     }
@@ -139,16 +140,18 @@ class Animator {
 
     template <class Write>
     void write_each(const Todo& todo, const Write& write) {
-        any_written_ = false;
+        bool any_written = false;
         for (const fs::path& path : todo.missing) {
             const bool written = is_written(path, [&] { write(path); });
-            any_written_ |= written;
+            any_written |= written;
             all_written_ &= written;
             const bool is_source =
                 !job_.films.empty() && path == job_.frames[job_.film_source].pattern.path(todo.frame);
             has_film_source_ &= written || !is_source;
         }
-        has_film_source_ &= any_written_;
+        if (any_written) ++rendered_;
+        failed_in_a_row_ = any_written ? 0 : failed_in_a_row_ + 1;
+        has_film_source_ &= failed_in_a_row_ < kMostFailures;
     }
 
     const AnimateJob& job_;
@@ -158,7 +161,8 @@ class Animator {
     BatchProgress progress_;
     int rendered_ = 0;
     std::uint64_t unresolved_ = 0;
-    bool any_written_ = true, all_written_ = true, has_film_source_ = true;
+    int failed_in_a_row_ = 0;
+    bool all_written_ = true, has_film_source_ = true;
 };
 
 // Their folder goes by itself.

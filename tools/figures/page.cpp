@@ -192,9 +192,7 @@ void write_page(const fs::path& folder) {
     for (const Film& film : films(Size::paper)) film_paths.push_back(folder / (film.name + ".json"));
     const std::vector<ordered_json> figure_records = records_of(figure_paths);
     if (figure_records.empty()) throw std::runtime_error(fmt::format("{}: no figures for a page", folder.string()));
-    const std::string page = page_of(figure_records, records_of(film_paths));
-    image::replace_file(folder / "index.html",
-                        std::span(reinterpret_cast<const unsigned char*>(page.data()), page.size()));
+    image::replace_file(folder / "index.html", page_of(figure_records, records_of(film_paths)));
 }
 
 }  // namespace strata::tools::figures
