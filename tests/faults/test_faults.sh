@@ -49,7 +49,7 @@ run_case() { # case fault
     [[ ! ${with_fakes[$1]-} ]] || more+=("PATH=$fake:$PATH")
     mkdir -p tmp
     output=$(cd work && env "${more[@]}" TMPDIR="${PWD%/work}/tmp" LD_PRELOAD="$preload" STRATA_TEST_FAULT="$2" \
-        STRATA_TEST_FAULT_LOG=../log timeout 60 "$strata" "${command[@]}" 2>&1 </dev/null)
+        STRATA_TEST_FAULT_LOG=../log timeout 120 "$strata" "${command[@]}" 2>&1 </dev/null)
     status=$?
 }
 
