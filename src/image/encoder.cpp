@@ -10,6 +10,7 @@
 #include "src/image/digest.h"
 #include "src/image/image_error.h"
 #include "src/image/library.h"
+#include "src/image/library_noise.h"
 #include "src/image/srgb.h"
 
 namespace strata::image {
@@ -148,7 +149,8 @@ Encoder::Encoder(const std::filesystem::path& path, const PictureShape& shape, c
     output_ = OIIO::ImageOutput::create(name_of(format_));
     if (!output_) fail(path, OIIO::geterror());
     if (!output_->set_ioproxy(&bytes)) fail(path, "OpenImageIO cannot encode this format here");
-    if (!output_->open(name_of(format_), spec)) fail(path, output_->geterror());
+    const LibraryNoise noise;
+    if (!output_->open(name_of(format_), spec)) fail(path, noise.explain(output_->geterror()));
 }
 
 int Encoder::rows_of(std::size_t values) const {
@@ -256,7 +258,8 @@ void Encoder::write_rows_left() {
 }
 
 void Encoder::finish() {
-    if (!output_->close()) fail(path_, output_->geterror());
+    const LibraryNoise noise;
+    if (!output_->close()) fail(path_, noise.explain(output_->geterror()));
     if (not_finite_ == 0) return;
     fail(path_, fmt::format("{} pixel{} not finite, first {}", not_finite_, not_finite_ == 1 ? " is" : "s are",
                             first_not_finite_));

@@ -9,6 +9,7 @@
 #include "src/image/digest.h"
 #include "src/image/encoder.h"
 #include "src/image/image_error.h"
+#include "src/image/library_noise.h"
 #include "src/image/output_file.h"
 
 namespace strata::image {
@@ -139,7 +140,10 @@ void PictureStream::finish_partial(const std::filesystem::path& path, const Meta
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(name_of(format_of(path)));
     if (!input) throw ImageError(OIIO::geterror());
     OIIO::ImageSpec spec;
-    if (!input->open(written.string(), spec)) throw ImageError(input->geterror());
+    {
+        const LibraryNoise noise;
+        if (!input->open(written.string(), spec)) throw ImageError(noise.explain(input->geterror()));
+    }
     State partial(path, state_->shape, metadata, state_->options);
     try {
         partial.encoder.copy(*input);
