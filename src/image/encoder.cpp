@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "src/image/digest.h"
+#include "src/image/dither.h"
 #include "src/image/image_error.h"
 #include "src/image/library.h"
 #include "src/image/library_noise.h"
@@ -38,15 +39,30 @@ void check_shape(const std::filesystem::path& path, const PictureShape& p) {
     check_size(path, p.width(), p.height());
 }
 
-// The nearest code of [0, max(Code)] after exposure and sRGB.
-template <class Code>
-std::vector<Code> quantise(std::span<const float> linear, double exposure) {
-    constexpr double kTop = std::numeric_limits<Code>::max();
-    // Beyond these limits every code is already 0 or the largest; within them no product is 0 * inf.
-    const double scale = std::exp2(std::clamp(exposure, -1000.0, 1000.0));
-    std::vector<Code> codes;
+// Beyond these limits every code is already 0 or the largest; within them no product is 0 * inf.
+double scale_of(double exposure) { return std::exp2(std::clamp(exposure, -1000.0, 1000.0)); }
+
+// The nearest code of 16 bits after exposure and sRGB.
+std::vector<std::uint16_t> quantise(std::span<const float> linear, double exposure) {
+    constexpr double kTop = std::numeric_limits<std::uint16_t>::max();
+    const double scale = scale_of(exposure);
+    std::vector<std::uint16_t> codes;
     codes.reserve(linear.size());
-    for (const float value : linear) codes.push_back(static_cast<Code>(std::lround(encode_srgb(value * scale) * kTop)));
+    for (const float value : linear)
+        codes.push_back(static_cast<std::uint16_t>(std::lround(encode_srgb(value * scale) * kTop)));
+    return codes;
+}
+
+// Codes of 8 bits, dithered by the pixels' places in the frame: rows of `width` pixels, the first at (x0,y0).
+std::vector<std::uint8_t> dither(std::span<const float> linear, double exposure, int x0, int y0, int width) {
+    const double scale = scale_of(exposure);
+    std::vector<std::uint8_t> codes;
+    codes.reserve(linear.size());
+    const std::size_t row = 3 * static_cast<std::size_t>(width);
+    for (std::size_t i = 0; i < linear.size(); ++i) {
+        const int x = x0 + static_cast<int>(i % row / 3), y = y0 + static_cast<int>(i / row);
+        codes.push_back(static_cast<std::uint8_t>(dithered_code(encode_srgb(linear[i] * scale), x, y)));
+    }
     return codes;
 }
 
@@ -185,6 +201,7 @@ void Encoder::write(OIIO::TypeDesc type, const void* values, int rows) {
 void Encoder::write_linear(std::span<const float> rgb, std::span<const float> extra) {
     const int rows = rows_of(rgb.size());
     count_not_finite(rgb);
+    const int y = shape_.y0 + next_row_;
     if (not_finite_ > 0) {
         // The file will not be kept, but must become whole; NaN has no code.
         const std::vector<float> black(rgb.size() / 3 * channels(), 0.0f);
@@ -194,12 +211,13 @@ void Encoder::write_linear(std::span<const float> rgb, std::span<const float> ex
         case Format::exr:
             return write_exr(rgb, extra, rows);
         case Format::tiff:
-            return write(OIIO::TypeDesc::UINT16, quantise<std::uint16_t>(rgb, options_.exposure).data(), rows);
+            return write(OIIO::TypeDesc::UINT16, quantise(rgb, options_.exposure).data(), rows);
         case Format::png:
         case Format::jpeg:
             break;
     }
-    write(OIIO::TypeDesc::UINT8, quantise<std::uint8_t>(rgb, options_.exposure).data(), rows);
+    const std::vector<std::uint8_t> codes = dither(rgb, options_.exposure, shape_.x0, y, shape_.width());
+    write(OIIO::TypeDesc::UINT8, codes.data(), rows);
 }
 
 void Encoder::write_exr(std::span<const float> rgb, std::span<const float> extra, int rows) {
