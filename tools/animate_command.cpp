@@ -3,6 +3,8 @@
 #include <memory>
 #include <system_error>
 
+#include "src/image/image_error.h"
+#include "src/image/not_finite.h"
 #include "src/image/write.h"
 #include "src/render/cancel.h"
 #include "src/render/progress_printer.h"
@@ -13,6 +15,7 @@
 #include "tools/batch_progress.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
+#include "tools/picture_metadata.h"
 #include "tools/render_picture.h"
 #include "tools/standard_output.h"
 
@@ -117,13 +120,19 @@ class Animator {
                const std::vector<image::Picture>& pictures) const {
         const image::Metadata metadata = frame_metadata(job_, todo.frame);
         if (job_.columns.empty()) {
+            image::WriteOptions options = job_.write;
+            options.frames_per_second = frame_rate(scenes.front());
             for (const fs::path& path : todo.missing) {
-                image::write_picture(path, pictures.front(), metadata, job_.write);
+                image::write_picture(path, pictures.front(), metadata, options);
             }
             return;
         }
         std::vector<image::Canvas> canvases;
         for (std::size_t i = 0; i < pictures.size(); ++i) {
+            const std::string not_finite = image::describe_not_finite(pictures[i]);
+            if (!not_finite.empty()) {
+                throw image::ImageError(fmt::format("frame {}, picture {}: {}", todo.frame, i + 1, not_finite));
+            }
             canvases.push_back(image::to_canvas(pictures[i], scenes[i].film.exposure));
         }
         const image::Canvas sheet = side_by_side(job_.columns, std::move(canvases));

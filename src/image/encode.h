@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,12 +19,21 @@ enum class ExrFormat { half, floating };
 enum class ExrLayout { automatic, scanlines, tiles };
 inline constexpr int kTiledFrom = 4096;
 
+// numerator / denominator frames a second, both positive.
+struct FrameRate {
+    int numerator = 25, denominator = 1;
+    bool operator==(const FrameRate&) const = default;
+};
+
 struct WriteOptions {
     double exposure = 0.0;  // stops, finite; EXR ignores it and stays linear
     ExrFormat exr_format = ExrFormat::half;
     ExrLayout exr_layout = ExrLayout::automatic;
     std::vector<std::string>
         exr_extra{};  // channels of 32 bits beside R, G and B, as "steps.Y", sorted; of streams alone
+    std::optional<FrameRate> frames_per_second{};    // that an EXR says, where it is a frame of an animation
+    bool keeps_not_finite = false;                   // in an EXR in floating point: of a picture of another program
+    std::function<void(const std::string&)> warn{};  // of what a whole file lost: radiance beyond the largest half
 };
 
 // Rows encoded at once: a multiple of the 16 that EXR's zip packs together and of the 64 of its tiles, and little

@@ -131,6 +131,7 @@ void PictureStream::write(std::span<const float> rgb, std::span<const float> ext
 void PictureStream::finish() {
     state_->close();
     state_->put_in_place();
+    tell_clipping(state_->bytes.filename(), state_->encoder, state_->options);
 }
 
 void PictureStream::finish_partial(const std::filesystem::path& path, const Metadata& metadata) {
@@ -154,6 +155,7 @@ void PictureStream::finish_partial(const std::filesystem::path& path, const Meta
     }
     partial.close();
     partial.put_in_place();
+    tell_clipping(path, state_->encoder, state_->options);
 }
 
 }  // namespace strata::image

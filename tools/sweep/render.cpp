@@ -8,6 +8,7 @@
 #include "src/render/progress_printer.h"
 #include "tools/already_there.h"
 #include "tools/batch_progress.h"
+#include "tools/picture_metadata.h"
 #include "tools/render_picture.h"
 #include "tools/standard_output.h"
 #include "tools/sweep/tables.h"
@@ -63,7 +64,9 @@ SweepOutcome render_sweep(const SweepJob& job, SweepLedger& ledger, const render
         outcome.cancelled = rendered.result.cancelled || cancel.requested();
         if (!rendered.result.cancelled) {
             image::write_picture(job.folder / picture->file, rendered.picture, picture->metadata,
-                                 {.exposure = 0, .exr_format = image::ExrFormat::floating});
+                                 {.exposure = 0,
+                                  .exr_format = image::ExrFormat::floating,
+                                  .frames_per_second = frame_rate(picture->scene)});
             ledger[picture->file] = cost_of(rendered.result, picture->metadata);
             write_costs(job, ledger);
             ++outcome.rendered;
