@@ -2,22 +2,33 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string_view>
+#include <vector>
 
 #include "src/image/stream_target.h"
 
 namespace strata::image {
 namespace {
 
-// Errors that were gathered are lines.
-std::string in_one_line(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
-    for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at)) text.replace(at, 1, "; ");
-    return text;
+// Errors that were gathered are lines; what another line says too is left out.
+std::string in_one_line(std::string_view text) {
+    std::vector<std::string_view> lines;
+    while (!text.empty()) {
+        std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(text.size(), line.size() + 1));
+        line = line.substr(0, line.find_last_not_of(" \r") + 1);
+        const auto says = [](std::string_view a, std::string_view b) { return a.find(b) != std::string_view::npos; };
+        if (std::ranges::any_of(lines, [&](std::string_view other) { return says(other, line); })) continue;
+        std::erase_if(lines, [&](std::string_view other) { return says(line, other); });
+        lines.push_back(line);
+    }
+    return fmt::format("{}", fmt::join(lines, "; "));
 }
 
 }  // namespace
@@ -48,14 +59,13 @@ std::string LibraryNoise::text() const {
     line = line.substr(0, line.find('\n'));
     for (const std::string_view prefix : {"libpng error: ", "libpng warning: "})
         if (line.starts_with(prefix)) line.remove_prefix(prefix.size());
-    return in_one_line(std::string(line));
+    return in_one_line(line);
 }
 
-std::string LibraryNoise::explain(std::string error) const {
-    error = in_one_line(std::move(error));
-    const std::string noise = text();
-    if (noise.empty() || error.find(noise) != std::string::npos) return error;
-    return error.empty() ? noise : fmt::format("{} ({})", error, noise);
+std::string LibraryNoise::explain(const std::string& error) const {
+    const std::string line = in_one_line(error), noise = text();
+    if (noise.empty() || line.find(noise) != std::string::npos) return line;
+    return line.empty() ? noise : fmt::format("{} ({})", line, noise);
 }
 
 }  // namespace strata::image

@@ -18,8 +18,8 @@ class LibraryNoise {
     // The first line of what was printed, without the library's name for it ("libpng error: "); empty if nothing was.
     std::string text() const;
 
-    // OpenImageIO's error with that line beside it, unless it says the same.
-    std::string explain(std::string error) const;
+    // OpenImageIO's error, in one line, with that line beside it unless it says the same.
+    std::string explain(const std::string& error) const;
 
   private:
     int kept_ = -1;   // an unnamed file

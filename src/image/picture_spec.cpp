@@ -74,7 +74,7 @@ void set_meaning(OIIO::ImageSpec& spec, const WriteOptions& options) {
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, kRec709.size()), kRec709.data());
     if (!options.frames_per_second) return;
     const std::array<int, 2> rate{options.frames_per_second->numerator, options.frames_per_second->denominator};
-    spec.attribute("FramesPerSecond", OIIO::TypeRational, rate.data());
+    spec.attribute("framesPerSecond", OIIO::TypeRational, rate.data());
 }
 
 }  // namespace

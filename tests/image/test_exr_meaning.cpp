@@ -43,6 +43,9 @@ TEST_CASE("an EXR names its primaries and white, and its frame rate where it is 
         std::array<int, 2> rate{};
         CHECK(spec_of(folder / "frame.exr").getattribute("FramesPerSecond", OIIO::TypeRational, rate.data()));
         CHECK(rate == std::array{24000, 1001});
+        // OpenEXR's own name: OpenImageIO's begins with a capital, which no other program looks for.
+        CHECK(file_bytes(folder / "frame.exr").find(std::string("framesPerSecond\0rational\0", 25)) !=
+              std::string::npos);
         CHECK(read_facts(folder / "frame.exr").metadata.entries().empty());
     }
 }

@@ -39,6 +39,7 @@ TEST_CASE("what is printed on standard error is kept while the noise is listened
         CHECK(inner.explain("Could not read\n") == "Could not read (IHDR: CRC error)");
         CHECK(inner.explain("bad: IHDR: CRC error") == "bad: IHDR: CRC error");
         CHECK(inner.explain("") == "IHDR: CRC error");
+        CHECK(inner.explain("CRC error\na\nPNG: IHDR: CRC error\na \n") == "a; PNG: IHDR: CRC error");
     }
     CHECK(outer.text().empty());
     std::fprintf(stderr, "shown\n");
