@@ -237,7 +237,8 @@ void add_animate_command(Command& program, int& exit_code) {
     command->add_option("--tracer", request->tracer, "fast, or reference")->type_name("NAME")->capture_default_str();
     command->add_option("--simd", request->simd, "avx512, avx2, sse4 or scalar; default the best that is here")
         ->type_name("TARGET");
-    command->add_option("--format", request->format, "EXR channels: half or float; default half")->type_name("NAME");
+    command->add_option("--format", request->format, "EXR channels: half (up to 65504) or float; default half")
+        ->type_name("NAME");
     command->add_flag("--quiet", request->quiet, "No progress, summary or warnings");
     command->footer(
         "Frame k begins at k / shutter.fps seconds. What moves: camera.keys, surface.spin_deg_per_s, surface.drift, "

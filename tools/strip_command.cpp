@@ -137,11 +137,13 @@ void add_strip_command(Command& program, int& exit_code) {
     command->add_flag("--quiet", request->quiet, "No progress or summary");
     command->footer(
         "With --scene only the crop is rendered. Pictures are shown with the scene's exposure, or that of the first\n"
-        "picture. Errors are of linear radiance, over all channels. EXR and TIFF in floating\n"
-        "point are linear; PNG, TIFF and JPEG of whole numbers hold codes, sRGB's unless the file says otherwise "
-        "(gAMA,\n"
-        "cICP, an ICC profile), which are decoded and their exposure undone; what they clipped stays clipped. Grey is\n"
-        "shown as grey, alpha over black, and a pixel that is not finite in cyan, with a warning.\n"
+        "picture. Errors are of linear radiance, over all channels. EXR, and TIFF in floating point, are linear. "
+        "Whole\n"
+        "numbers are sRGB codes unless the file says otherwise (gAMA, cICP, an ICC profile): they are decoded and "
+        "their\n"
+        "exposure undone; what they clipped stays clipped. Grey is shown as grey, alpha over black, and pixels that "
+        "are\n"
+        "not finite in cyan, with a warning.\n"
         "  strata strip a.exr b.exr --crop 100,60,140,90 --zoom 8 -o strip.png\n"
         "  strata strip --scene terrain --columns \"none; N=2; N=10\" --crop 600,330,640,360 --reference N=10 --rmse\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, scene or picture, 129, 130 or 143 "
