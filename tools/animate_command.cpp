@@ -5,6 +5,8 @@
 #include <optional>
 #include <system_error>
 
+#include "src/image/image_error.h"
+#include "src/image/not_finite.h"
 #include "src/image/write.h"
 #include "src/render/cancel.h"
 #include "src/render/progress_printer.h"
@@ -17,6 +19,7 @@
 #include "tools/commands.h"
 #include "tools/endings.h"
 #include "tools/errors.h"
+#include "tools/picture_metadata.h"
 #include "tools/planned_files.h"
 #include "tools/render_picture.h"
 #include "tools/standard_output.h"
@@ -125,13 +128,19 @@ class Animator {
     void write(const Todo& todo, const std::vector<scene::Scene>& scenes, const std::vector<image::Picture>& pictures) {
         const image::Metadata metadata = frame_metadata(job_, todo.frame);
         if (job_.columns.empty()) {
+            image::WriteOptions options = job_.write;
+            options.frames_per_second = frame_rate(scenes.front());
             write_each(todo, [&](const fs::path& path) {
-                image::write_picture(path, pictures.front(), metadata, job_.write);
+                image::write_picture(path, pictures.front(), metadata, options);
             });
             return;
         }
         std::vector<image::Canvas> canvases;
         for (std::size_t i = 0; i < pictures.size(); ++i) {
+            const std::string not_finite = image::describe_not_finite(pictures[i]);
+            if (!not_finite.empty()) {
+                throw image::ImageError(fmt::format("frame {}, picture {}: {}", todo.frame, i + 1, not_finite));
+            }
             canvases.push_back(image::to_canvas(pictures[i], scenes[i].film.exposure));
         }
         const image::Canvas sheet = side_by_side(job_.columns, std::move(canvases));
@@ -282,7 +291,8 @@ void add_animate_command(Command& program, int& exit_code) {
     command->add_option("--tracer", request->tracer, "fast, or reference")->type_name("NAME")->capture_default_str();
     command->add_option("--simd", request->simd, "avx512, avx2, sse4 or scalar; default the best that is here")
         ->type_name("TARGET");
-    command->add_option("--format", request->format, "EXR channels: half or float; default half")->type_name("NAME");
+    command->add_option("--format", request->format, "EXR channels: half (up to 65504) or float; default half")
+        ->type_name("NAME");
     command->add_flag("--quiet", request->quiet, "No progress, summary or warnings");
     command->footer(
         "Frame k begins at k / shutter.fps seconds. What moves: camera.keys, surface.spin_deg_per_s, surface.drift, "

@@ -143,7 +143,8 @@ void add_render_command(Command& program, int& exit_code) {
         ->type_name("TARGET");
     command
         ->add_option("--format", request->format,
-                     "EXR channels: half or float; default half. Or what goes to standard output or a pipe: exr (the "
+                     "EXR channels: half (up to 65504) or float; default half. Or what goes to standard output or a "
+                     "pipe: exr (the "
                      "default), png, tif or jpg")
         ->type_name("NAME");
     command->add_flag("--tiled", request->tiled,

@@ -16,6 +16,7 @@
 #include "src/scene/enum_names.h"
 #include "src/scene/key_text.h"
 #include "src/scene/typed_number.h"
+#include "tools/clipping.h"
 #include "tools/duration.h"
 #include "tools/errors.h"
 #include "tools/picture_metadata.h"
@@ -264,7 +265,9 @@ Job prepare(const RenderRequest& request) {
     const bool is_tiled = request.tiled || job.loaded.is_tiled;
     job.write = {.exposure = job.loaded.scene.film.exposure,
                  .exr_format = parse_format(format),
-                 .exr_layout = is_tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic};
+                 .exr_layout = is_tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic,
+                 .frames_per_second = frame_rate(job.loaded.scene)};
+    if (!request.quiet) job.write.warn = warn_of_clipping;
     job.goal = choose_goal(request, job.loaded);
     choose_aovs(request, job);
     check_memory(job.window, job.goal);

@@ -26,12 +26,15 @@ constexpr const char* kTracer = "fast";
 
 void write_part(PlannedFiles& files, const StripJob& job, const StripSource& source,
                 const std::filesystem::path& path) {
-    const image::WriteOptions options{.exposure = 0, .exr_format = image::ExrFormat::floating};
+    image::WriteOptions options{.exposure = 0, .exr_format = image::ExrFormat::floating};
     image::Metadata metadata;
-    if (source.scene && source.file.empty())
+    if (source.scene && source.file.empty()) {
         metadata = picture_metadata(*source.scene, job.window, kTracer, "float");
-    else
+        options.frames_per_second = frame_rate(*source.scene);
+    } else {
         metadata.set("strata:part_of", source.name);
+        options.keeps_not_finite = true;
+    }
     files.write_made(path, [&] { return image::encode(path, source.picture, metadata, options); });
 }
 
@@ -168,8 +171,13 @@ void add_strip_command(Command& program, int& exit_code) {
     command->add_flag("--quiet", request->quiet, "No progress or summary");
     command->footer(
         "With --scene only the crop is rendered. Pictures are shown with the scene's exposure, or that of the first\n"
-        "picture. Errors are of linear radiance, over all channels. PNG, TIFF and JPEG hold sRGB codes, which are\n"
-        "decoded and their exposure undone; what they clipped stays clipped.\n"
+        "picture. Errors are of linear radiance, over all channels. EXR, and TIFF in floating point, are linear. "
+        "Whole\n"
+        "numbers are sRGB codes unless the file says otherwise (gAMA, cICP, an ICC profile): they are decoded and "
+        "their\n"
+        "exposure undone; what they clipped stays clipped. Grey is shown as grey, alpha over black, and pixels that "
+        "are\n"
+        "not finite in cyan, with a warning.\n"
         "  strata strip a.exr b.exr --crop 100,60,140,90 --zoom 8 -o strip.png\n"
         "  strata strip --scene terrain --columns \"none; N=2; N=10\" --crop 600,330,640,360 --reference N=10 --rmse\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, scene or picture, 129, 130 or 143 "

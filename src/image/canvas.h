@@ -36,8 +36,11 @@ struct Canvas {
 // All drawing keeps to the canvas: what lies outside is left out. Sizes are at least 1.
 Canvas make_canvas(int width, int height, const Colour& colour);
 
-// The crop of a picture of linear radiance, as a PNG with this exposure (stops, finite) would show it, code for code.
-// Throws ImageError when the picture has pixels that are not finite.
+// Of a pixel that is not finite, which only pictures of other programs have.
+inline constexpr Colour kNotFiniteColour{0.0f, 1.0f, 1.0f};
+
+// The crop of a picture of linear radiance, as a PNG with this exposure (stops, finite) would show it, code for code;
+// pixels that are not finite in kNotFiniteColour.
 Canvas to_canvas(const Picture& linear, double exposure);
 
 // Throws ImageError, naming both, when the box is empty or not inside the canvas.

@@ -11,6 +11,7 @@
 #include "src/image/digest.h"
 #include "src/image/encoder.h"
 #include "src/image/image_error.h"
+#include "src/image/library_noise.h"
 #include "src/image/output_file.h"
 
 namespace strata::image {
@@ -110,7 +111,11 @@ struct PictureStream::State {
             const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(name_of(format));
             if (!input) throw ImageError(OIIO::geterror());
             OIIO::ImageSpec spec;
-            if (!input->open(written.bytes.file().hidden_path().string(), spec)) throw ImageError(input->geterror());
+            {
+                const LibraryNoise noise;
+                const std::string path = written.bytes.file().hidden_path().string();
+                if (!input->open(path, spec)) throw ImageError(noise.explain(input->geterror()));
+            }
             encoder.copy(*input);
         } catch (...) {
             encoder.write_rows_left();
@@ -151,6 +156,7 @@ void PictureStream::finish() {
     state_->close();
     state_->complete();
     state_->bytes.file().put_in_place();
+    tell_clipping(state_->bytes.file().target(), state_->encoder, state_->options);
 }
 
 void PictureStream::finish_partial(const std::filesystem::path& path, const Metadata& metadata) {
@@ -165,6 +171,7 @@ void PictureStream::finish_partial(const std::filesystem::path& path, const Meta
         state_->bytes.file().keep(fmt::format("unfinished, and {}", error.what()));
     }
     partial->bytes.file().put_in_place();
+    tell_clipping(path, state_->encoder, state_->options);
 }
 
 }  // namespace strata::image

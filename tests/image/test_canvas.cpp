@@ -9,6 +9,7 @@
 #include <random>
 
 #include "src/image/image_error.h"
+#include "src/image/not_finite.h"
 #include "src/image/read.h"
 #include "src/image/write.h"
 #include "tests/image/scratch_folder.h"
@@ -56,10 +57,20 @@ TEST_CASE("a canvas shows radiance by the very codes of a PNG with the same expo
     }
 }
 
-TEST_CASE("pixels that are not finite are refused, not shown") {
+TEST_CASE("pixels that are not finite are shown in a colour of their own, and counted") {
     Picture picture = random_picture(3, 3, 1.0f);
+    CHECK(describe_not_finite(picture).empty());
+    const Canvas before = to_canvas(picture, 0);
     picture.rgb[5] = std::numeric_limits<float>::quiet_NaN();
-    CHECK(error_of([&] { to_canvas(picture, 0); }).find("not finite") != std::string::npos);
+    CHECK(describe_not_finite(picture).find("1 pixel is not finite, first (1,0) = (") == 0);
+    picture.rgb[24] = -std::numeric_limits<float>::infinity();
+    picture.rgb[25] = std::numeric_limits<float>::infinity();
+    CHECK(describe_not_finite(picture).find("2 pixels are not finite, first (1,0) = (") == 0);
+    const Canvas canvas = to_canvas(picture, 0);
+    for (int i = 0; i < 9; ++i) {
+        const bool is_bad = i == 1 || i == 8;
+        CHECK(pixel(canvas, i % 3, i / 3) == (is_bad ? kNotFiniteColour : pixel(before, i % 3, i / 3)));
+    }
 }
 
 TEST_CASE("magnification replicates pixels, a crop keeps them") {

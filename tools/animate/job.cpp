@@ -14,6 +14,7 @@
 #include "src/scene/validate.h"
 #include "tools/animate/film.h"
 #include "tools/animate/sheet.h"
+#include "tools/clipping.h"
 #include "tools/errors.h"
 #include "tools/picture_metadata.h"
 #include "tools/process.h"
@@ -173,6 +174,7 @@ AnimateJob prepare_animation(const AnimateRequest& request) {
     job.scene = loaded.scene;
     job.format = request.format.empty() ? "half" : request.format;
     job.write = {.exposure = job.scene.film.exposure, .exr_format = parse_exr_format(job.format)};
+    if (!job.quiet) job.write.warn = warn_of_clipping;
     job.range = request.frames.empty() ? default_frames(job.scene) : parse_frames(request.frames);
     job.scene.shutter.frame = job.range.first();
     job.columns_text = choose_columns(request, loaded);

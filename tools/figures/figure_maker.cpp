@@ -88,7 +88,7 @@ class Maker {
         progress_.finish(part, rendered.result.counters.rays);
         image::write_picture(options_.folder / part.file, rendered.picture,
                              picture_metadata(part.scene, part.window, "fast", "float"),
-                             {.exr_format = image::ExrFormat::floating});
+                             {.exr_format = image::ExrFormat::floating, .frames_per_second = frame_rate(part.scene)});
         return std::move(rendered.picture);
     }
 

@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "src/image/canvas.h"
 #include "src/image/encode.h"
@@ -12,15 +12,14 @@
 #include "src/image/image_error.h"
 #include "src/image/metadata.h"
 #include "src/image/output_file.h"
-#include "src/image/read.h"
 #include "src/image/stream_target.h"
 #include "src/image/text.h"
 #include "src/scene/key_text.h"
 #include "src/scene/printer.h"
-#include "src/scene/toml_reader.h"
 #include "src/scene/typed_number.h"
 #include "tools/column_settings.h"
 #include "tools/errors.h"
+#include "tools/foreign_picture.h"
 #include "tools/picture_labels.h"
 #include "tools/standard_output.h"
 #include "tools/stream_input.h"
@@ -35,20 +34,15 @@ constexpr int kMostColumns = 64;
 constexpr int kMostZoom = 64;
 constexpr int kPanelWidth = 256;  // that the automatic zoom keeps to
 
-StripSource from_file(const std::string& typed) {
+StripSource from_file(const std::string& typed, bool quiet) {
     const auto spooled = spool_stream(typed);
     const fs::path path = spooled.value_or(typed);
-    const std::string label = typed == "-" ? "stdin" : fs::path(typed).stem().string();
-    StripSource source{.name = typed, .label = label, .file = path, .scene = {}, .picture = {}};
-    try {
-        image::refuse_damaged(path);
-        const auto text = image::read_metadata(path, image::kSceneKey);
-        if (text) source.scene = scene::read_scene(*text, typed);
-        source.picture = image::read_linear(path, source.scene ? source.scene->film.exposure : 0.0);
-    } catch (const image::ImageError& error) {
-        throw UsageError(error.what());
-    }
-    return source;
+    ForeignPicture picture = read_foreign_picture(path, typed, quiet);
+    return {.name = typed,
+            .label = typed == "-" ? "stdin" : fs::path(typed).stem().string(),
+            .file = path,
+            .scene = std::move(picture.scene),
+            .picture = std::move(picture.linear)};
 }
 
 StripSource from_settings(const LoadedScene& loaded, const ColumnSettings& settings, const char* origin) {
@@ -65,7 +59,7 @@ void require(bool condition, const char* message) {
 
 std::vector<StripSource> find_columns(const StripRequest& request, const std::optional<LoadedScene>& loaded) {
     std::vector<StripSource> columns;
-    for (const std::string& path : request.pictures) columns.push_back(from_file(path));
+    for (const std::string& path : request.pictures) columns.push_back(from_file(path, request.quiet));
     std::vector<std::optional<scene::Scene>> scenes;
     std::vector<std::string> names;
     for (const StripSource& column : columns) {
@@ -120,7 +114,7 @@ void find_reference(const StripRequest& request, const std::optional<LoadedScene
     }
     std::error_code ignored;
     if (!loaded || fs::exists(text, ignored) || fs::path(text).has_extension())
-        job.reference = from_file(text);
+        job.reference = from_file(text, request.quiet);
     else
         job.reference = from_settings(*loaded, parse_column("--reference", text), "--reference");
 }

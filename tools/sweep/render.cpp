@@ -8,6 +8,7 @@
 #include "src/render/progress_printer.h"
 #include "tools/already_there.h"
 #include "tools/batch_progress.h"
+#include "tools/picture_metadata.h"
 #include "tools/render_picture.h"
 #include "tools/standard_output.h"
 #include "tools/sweep/tables.h"
@@ -69,7 +70,9 @@ SweepOutcome render_sweep(PlannedFiles& files, const SweepJob& job, SweepLedger&
             const std::filesystem::path path = job.folder / picture->file;
             const bool written = is_written(path, [&] {
                 image::write_picture(path, rendered.picture, picture->metadata,
-                                     {.exposure = 0, .exr_format = image::ExrFormat::floating});
+                                     {.exposure = 0,
+                                      .exr_format = image::ExrFormat::floating,
+                                      .frames_per_second = frame_rate(picture->scene)});
             });
             failed_in_a_row = written ? 0 : failed_in_a_row + 1;
             outcome.unresolved_rays += rendered.result.counters.unresolved_rays;
