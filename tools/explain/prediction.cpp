@@ -9,6 +9,7 @@
 #include "src/render/estimator.h"
 #include "src/render/make_image.h"
 #include "src/render/processors.h"
+#include "src/render/progressive.h"
 #include "src/render/render.h"
 #include "src/scene/needs.h"
 #include "tools/explain/pilot.h"
@@ -62,16 +63,15 @@ double worker_memory(const render::Estimator& estimator, std::size_t batch_sampl
 }
 
 // The program with its libraries, of which this process has as many; what is on its way in each thread; the strips; of
-// several passes their sum, the pass in work and the one before it.
+// several passes what they are added up in.
 double expected_memory(const render::Window& window, const render::Estimator& estimator, std::size_t batch_samples,
                        int threads, int passes) {
-    constexpr double kSumBytes = 24;  // a pixel
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     const double pixels = 1.0 * window.width() * window.height();
     return 1024.0 * static_cast<double>(usage.ru_maxrss) + worker_memory(estimator, batch_samples) * threads +
            strip_memory(window) + (estimator.shared() ? shared_memory(window, estimator) : 0.0) +
-           (passes > 1 ? (kSumBytes + 2 * kFilmBytes) * pixels : 0.0);
+           (passes > 1 ? 1.0 * render::bytes_a_pixel_of_passes(estimator) * pixels : 0.0);
 }
 
 // Counts that are known to be zero.
