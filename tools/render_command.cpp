@@ -183,8 +183,8 @@ void add_render_command(Command& program, int& exit_code) {
     command
         ->add_option(
             "--target-rmse", request->target_rmse,
-            "Add passes, four at least, until the noise of linear radiance, told from the passes' differences, "
-            "is at most this RMSE with 95 % confidence")
+            "Add passes, four at least, until the error of linear radiance, told from the passes themselves, is at most "
+            "this RMSE with 95 % confidence")
         ->type_name("E");
     command
         ->add_option("--time-limit", request->time_limit,
@@ -203,8 +203,8 @@ void add_render_command(Command& program, int& exit_code) {
         "--tracer, --simd and --passes included; at another --size a crop shows the same part of the frame.\n"
         "The picture of K passes is the same whatever stopped it at K: its metadata hold K, and --passes K makes it "
         "again."
-        "\nThe noise told from differences leaves out what all passes share: the bias, of order 1/N^2, of jittered and "
-        "shared.\n"
+        "\nThe error that is told is that of the picture before it is rounded for a file; the bias of jittered and "
+        "shared, which falls with the number of passes, is in it.\n"
         "On SIGINT, SIGTERM or SIGHUP what is finished is written as NAME.partial.EXT, of several passes the mean of "
         "the whole ones; an earlier NAME.EXT stays.\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 129, 130 or 143 interrupted.");
