@@ -49,6 +49,8 @@ std::string explanation_json(const Explanation& explanation) {
     for (const OctavePlan& octave : explanation.plan.octaves) octaves.push_back(octave_json(octave));
     for (const NamedCost& cost : costs_of(explanation)) {
         costs[cost.name] = {{"predicted", optional(cost.predicted)},
+                            {"low", cost.between ? Json(cost.between->low) : Json(nullptr)},
+                            {"high", cost.between ? Json(cost.between->high) : Json(nullptr)},
                             {"actual", optional(cost.actual)},
                             {"ratio", optional(cost.ratio())}};
     }
