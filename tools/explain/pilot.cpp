@@ -13,7 +13,7 @@ namespace strata::tools {
 
 namespace {
 
-constexpr double kLeastBlocks = 64;   // if there are as many pixels: fewer tell little of how they differ
+constexpr double kLeastBlocks = 128;  // if there are as many pixels: fewer tell little of how they differ
 constexpr double kBlockSamples = 32;  // a side: enough to share what a render's samples share
 constexpr int kTile = 32;             // pixels: a render's tiles
 

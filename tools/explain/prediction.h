@@ -43,7 +43,7 @@ struct Prediction {
 // A pilot takes this fraction of the rays, but at least kLeastPilotRays, or all if there are no more than twice as
 // many, and at most kMostPilotRays, or kMostReferenceRays of the reference tracer's.
 inline constexpr double kPilotFraction = 0.01;
-inline constexpr std::uint64_t kLeastPilotRays = 1u << 15;
+inline constexpr std::uint64_t kLeastPilotRays = 1u << 16;
 inline constexpr std::uint64_t kMostPilotRays = 1u << 18;
 inline constexpr std::uint64_t kMostReferenceRays = 1u << 14;
 
