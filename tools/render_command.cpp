@@ -181,10 +181,10 @@ void add_render_command(Command& program, int& exit_code) {
                      "or --time-limit at most so many; default 1")
         ->type_name("K");
     command
-        ->add_option(
-            "--target-rmse", request->target_rmse,
-            "Add passes, four at least, until the error of linear radiance, told from the passes themselves, is at most "
-            "this RMSE with 95 % confidence")
+        ->add_option("--target-rmse", request->target_rmse,
+                     "Add passes, four at least, until the sampling error of linear radiance, told from the passes "
+                     "themselves, is at most "
+                     "this RMSE with 95 % confidence")
         ->type_name("E");
     command
         ->add_option("--time-limit", request->time_limit,
@@ -203,8 +203,10 @@ void add_render_command(Command& program, int& exit_code) {
         "--tracer, --simd and --passes included; at another --size a crop shows the same part of the frame.\n"
         "The picture of K passes is the same whatever stopped it at K: its metadata hold K, and --passes K makes it "
         "again."
-        "\nThe error that is told is that of the picture before it is rounded for a file; the bias of jittered and "
-        "shared, which falls with the number of passes, is in it.\n"
+        "\nThe sampling error that is told is that of this picture, before it is rounded for a file, against "
+        "infinitely "
+        "many passes of the same N and tolerance; the bias of jittered and shared, which falls with the number of "
+        "passes, is in it. Hits off the surface by up to the tolerance are not.\n"
         "On SIGINT, SIGTERM or SIGHUP what is finished is written as NAME.partial.EXT, of several passes the mean of "
         "the whole ones; an earlier NAME.EXT stays.\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 129, 130 or 143 interrupted.");

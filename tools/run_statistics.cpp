@@ -62,9 +62,10 @@ std::string verdict(const PassStatistics& passes) {
 std::string passes_summary(const PassStatistics& passes) {
     std::string text = fmt::format("passes   {}", passes.passes);
     if (passes.error && std::isfinite(passes.error->high)) {
-        text += fmt::format(", error {:.3g} RMSE (95 % sure: below {:.3g})", passes.error->rmse, passes.error->high);
+        text += fmt::format(", sampling error {:.3g} RMSE (95 % sure: below {:.3g})", passes.error->rmse,
+                            passes.error->high);
     } else if (passes.error) {
-        text += fmt::format(", error about {:.3g} RMSE", passes.error->rmse);
+        text += fmt::format(", sampling error about {:.3g} RMSE", passes.error->rmse);
     }
     const std::string said = verdict(passes);
     return text + (said.empty() ? "" : ", ") + said + "\n";
