@@ -116,7 +116,8 @@ void add_explain_command(Command& program, int& exit_code) {
         ->type_name("FILE.json");
     command->add_flag("--quiet", request->quiet, "No text");
     command->footer(
-        "A pilot casts 1 % of the rays - at least 65536, or all of up to 131072; at most 262144, or 16384 of the reference tracer's - "
+        "A pilot casts 1 % of the rays - at least 65536, or all of up to 131072; at most 262144, or 16384 of the "
+        "reference tracer's - "
         "in\n"
         "small blocks all over the frame, on one thread. What the blocks differ by tells the interval that holds a\n"
         "count 99 times in 100. Counts are the same in every run; times are not;\n"
