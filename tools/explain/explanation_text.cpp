@@ -110,7 +110,7 @@ std::string basis_text(const Explanation& explanation) {
         const double rays = static_cast<double>(prediction.pilot->rays);
         const double share = rays / static_cast<double>(prediction.costs.rays);
         text = fmt::format("From a pilot of {} rays, {:.3g} % of all{}. Rays are exact.\n", scaled(rays), 100 * share,
-                           share > kPilotFraction ? fmt::format(" (never fewer than {} rays)", kLeastPilotRays) : "");
+                           share > kPilotFraction ? fmt::format(" (of a small picture some {} rays)", kLeastPilotRays) : "");
     } else {
         text = "No pilot: only what is known without one.\n";
     }
