@@ -109,8 +109,9 @@ std::string basis_text(const Explanation& explanation) {
     if (prediction.pilot) {
         const double rays = static_cast<double>(prediction.pilot->rays);
         const double share = rays / static_cast<double>(prediction.costs.rays);
-        text = fmt::format("From a pilot of {} rays, {:.3g} % of all{}. Rays are exact.\n", scaled(rays), 100 * share,
-                           share > kPilotFraction ? fmt::format(" (of a small picture some {} rays)", kLeastPilotRays) : "");
+        text = fmt::format(
+            "From a pilot of {} rays, {:.3g} % of all{}. Rays are exact.\n", scaled(rays), 100 * share,
+            share > kPilotFraction ? fmt::format(" (of a small picture some {} rays)", kLeastPilotRays) : "");
     } else {
         text = "No pilot: only what is known without one.\n";
     }
