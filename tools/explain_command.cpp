@@ -105,8 +105,11 @@ void add_explain_command(Command& program, int& exit_code) {
         ->type_name("FILE.json");
     command->add_flag("--quiet", request->quiet, "No text");
     command->footer(
-        "A pilot casts 1 % of the rays - at least 4096, or all; at most 262144, or 16384 of the reference tracer's -\n"
-        "spread over the frame, on one thread. Counts are the same in every run; times are not;\n"
+        "A pilot casts 1 % of the rays - at least 65536, or all of up to 131072; at most 262144, or 16384 of the "
+        "reference tracer's - "
+        "in\n"
+        "small blocks all over the frame, on one thread. What the blocks differ by tells the interval that holds a\n"
+        "count 99 times in 100. Counts are the same in every run; times are not;\n"
         "`seconds` supposes a core for every thread.\n"
         "Distances and wavelengths are in world units; a pixel is that at the frame's centre, mid-shutter. `below\n"
         "tolerance from`: farther away the octave raises or lowers the surface by less than a hit's tolerance.\n"
@@ -118,7 +121,8 @@ void add_explain_command(Command& program, int& exit_code) {
         "relief [{name, type, of, octaves, low, high, slope, bend}], its terms with bounds in surface units;\n"
         "pilot {rays, share, cpu_seconds} or null; recorded {passes, threads, simd_target} or null, of --stats;\n"
         "costs {rays, shadow_rays, hits, noise_evaluations, executed_lanes, steps, cpu_seconds, seconds,\n"
-        "peak_memory_bytes}, each {predicted, actual, ratio}, null where not known. Of several "
+        "peak_memory_bytes}, each {predicted, low, high, actual, ratio}, null where not known.\n"
+        "low and high: of counts. Of several "
         "passes costs are those of one.\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, scene or --stats.");
     command->callback([request, &exit_code] { exit_code = explain_command(*request); });

@@ -162,10 +162,10 @@ void add_render_command(Command& program, int& exit_code) {
                      "or --time-limit at most so many; default 1")
         ->type_name("K");
     command
-        ->add_option(
-            "--target-rmse", request->target_rmse,
-            "Add passes, four at least, until the noise of linear radiance, told from the passes' differences, "
-            "is at most this RMSE with 95 % confidence")
+        ->add_option("--target-rmse", request->target_rmse,
+                     "Add passes, four at least, until the sampling error of linear radiance, told from the passes "
+                     "themselves, is at most "
+                     "this RMSE with 95 % confidence")
         ->type_name("E");
     command
         ->add_option("--time-limit", request->time_limit,
@@ -184,8 +184,10 @@ void add_render_command(Command& program, int& exit_code) {
         "--tracer, --simd and --passes included; at another --size a crop shows the same part of the frame.\n"
         "The picture of K passes is the same whatever stopped it at K: its metadata hold K, and --passes K makes it "
         "again."
-        "\nThe noise told from differences leaves out what all passes share: the bias, of order 1/N^2, of jittered and "
-        "shared.\n"
+        "\nThe sampling error that is told is that of this picture, before it is rounded for a file, against "
+        "infinitely "
+        "many passes of the same N and tolerance; the bias of jittered and shared, which falls with the number of "
+        "passes, is in it. Hits off the surface by up to the tolerance are not.\n"
         "On SIGINT, SIGTERM or SIGHUP what is finished is written as NAME.partial.EXT, of several passes the mean of "
         "the whole ones; an earlier NAME.EXT stays.\n"
         "A file that cannot be put in place is kept whole as NAME.kept.EXT, beside it or in TMPDIR, and told; the "

@@ -74,13 +74,11 @@ void choose_simd_target(const RenderRequest& request, const LoadedScene& loaded)
                     loaded.source, *loaded.simd_target, noise::simd_target()));
 }
 
-// Of several passes, while they are rendered: the sum, the pass in work and the one before it. One pass is not held
-// whole.
-constexpr double kBytesAPixelOfPasses = 24 + 13 + 13;
-
-void check_memory(const render::Window& window, const render::PassGoal& goal) {
+// One pass is not held whole.
+void check_memory(const render::Window& window, const render::PassGoal& goal, const scene::Scene& scene) {
     if (goal.passes == 1) return;
-    const double needed = kBytesAPixelOfPasses * window.width() * window.height();
+    const render::Estimator estimator(render::estimator_settings(scene));
+    const double needed = 1.0 * render::bytes_a_pixel_of_passes(estimator) * window.width() * window.height();
     const double present = static_cast<double>(render::available_memory_bytes());
     if (needed <= present) return;
     throw UsageError(
@@ -270,7 +268,7 @@ Job prepare(const RenderRequest& request) {
     if (!request.quiet) job.write.warn = warn_of_clipping;
     job.goal = choose_goal(request, job.loaded);
     choose_aovs(request, job);
-    check_memory(job.window, job.goal);
+    check_memory(job.window, job.goal, job.loaded.scene);
     job.outputs = output_paths(request, job);
     check_aov_paths(job);
     job.statistics = request.statistics;

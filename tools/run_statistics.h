@@ -15,7 +15,7 @@ struct PassStatistics {
     render::PassGoal goal;
     int passes = 0;
     render::PassesEnd end = render::PassesEnd::passes;
-    std::optional<render::NoiseEstimate> noise;
+    std::optional<render::ErrorEstimate> error;
     std::optional<int> predicted_passes;
     double predicted_seconds = 0;
 };
