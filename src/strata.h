@@ -144,8 +144,8 @@ struct RenderOptions {
     // many as it takes. Estimators "none", "super" and "uniform", whose passes are all alike, allow one.
     std::optional<int> passes{};
 
-    // Until the noise of linear radiance is at most this RMSE with 95 % confidence, four passes at least; 1e-9 to 1e6,
-    // 0: no goal.
+    // Until the error of linear radiance, noise and bias, is at most this RMSE with 95 % confidence, four passes at
+    // least; 1e-9 to 1e6, 0: no goal.
     double target_rmse = 0;
 
     // No pass that is predicted to end later than this after the start; the first always is done. >= 0, 0: no limit.
@@ -177,7 +177,7 @@ struct RenderReport {
     int threads = 0;                            // used
     std::chrono::duration<double> elapsed{0};   // tracing, shading, filtering; not set-up
     std::chrono::duration<double> cpu_time{0};  // of all threads
-    std::optional<double> noise_rmse{};         // of linear radiance, told from passes: from two on
+    std::optional<double> noise_rmse{};         // error of linear radiance, told from passes: from two on
 };
 
 // Linear RGB of a window of a frame: rows from the top, three floats a pixel.

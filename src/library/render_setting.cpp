@@ -113,7 +113,7 @@ RenderReport report_of(const render::ProgressiveResult& result) {
     report.threads = result.render.threads;
     report.elapsed = std::chrono::duration<double>(result.render.seconds);
     report.cpu_time = std::chrono::duration<double>(result.render.cpu_seconds);
-    if (result.noise) report.noise_rmse = result.noise->rmse;
+    if (result.error) report.noise_rmse = result.error->rmse;
     return report;
 }
 

@@ -13,6 +13,7 @@ using Real =
 struct Spline {
     Real cdf = 0;
     Real pdf = 0;
+    Real derivative = 0;  // right-continuous
 };
 
 inline Real integer_power(Real base, int exponent) {
@@ -31,12 +32,14 @@ inline Spline spline(int m, const Real& x) {
         const Real signed_binomial = k % 2 == 0 ? binomial : Real(-binomial);
         const Real base = x - k;
         const Real term = signed_binomial * integer_power(base, std::max(m - 2, 0));
+        sum.derivative += term;
         sum.pdf += m > 1 ? Real(term * base) : term;
         sum.cdf += m > 1 ? Real(term * base * base) : Real(term * base);
         binomial = binomial * (m - k) / (k + 1);
     }
     Real factorial = 1;
     for (int k = 2; k <= m - 2; ++k) factorial *= k;
+    sum.derivative = m > 1 ? Real(sum.derivative / factorial) : Real(0);
     if (m > 2) factorial *= m - 1;
     sum.pdf /= factorial;
     if (m > 1) factorial *= m;

@@ -22,8 +22,8 @@ struct Reference {
     double squared_error = 0;
 };
 
-inline Reference make_reference(const ImageFunction& image, EstimatorSettings settings, const Window& window, int N,
-                                int passes) {
+inline Reference make_reference(const integrate::ImageFunction& image, EstimatorSettings settings, const Window& window,
+                                int N, int passes) {
     settings.kind = scene::EstimatorKind::stratified;
     settings.N = N;
     settings.seed = 987'654'321;
@@ -48,8 +48,9 @@ struct StatedError {
     double worst = 0;             // the largest error / its bound
 };
 
-inline StatedError judge_statements(const ImageFunction& image, const EstimatorSettings& settings, const Window& window,
-                                    const PassGoal& goal, const Reference& reference, int trials) {
+inline StatedError judge_statements(const integrate::ImageFunction& image, const EstimatorSettings& settings,
+                                    const Window& window, const PassGoal& goal, const Reference& reference,
+                                    int trials) {
     StatedError judged;
     judged.trials = trials;
     for (int trial = 0; trial < trials; ++trial) {
@@ -84,7 +85,7 @@ inline constexpr scene::EstimatorKind kRandomised[] = {
 inline constexpr int kLeastHeld = 90;
 
 // For every estimator that takes passes.
-inline void check_statements(const std::string& what, const ImageFunction& image, EstimatorSettings settings,
+inline void check_statements(const std::string& what, const integrate::ImageFunction& image, EstimatorSettings settings,
                              const Window& window, const PassGoal& goal, const Reference& reference) {
     for (const scene::EstimatorKind kind : kRandomised) {
         settings.kind = kind;

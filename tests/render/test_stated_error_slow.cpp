@@ -1,12 +1,13 @@
 // What a render in passes says of its error, of more samples, other images and scenes with a surface.
 #include <doctest/doctest.h>
 
-#include "src/render/make_image.h"
+#include "src/integrate/make_image.h"
 #include "src/scene/builtin.h"
 #include "src/scene/toml_reader.h"
 #include "tests/render/stated_error.h"
 
 using namespace strata;
+using namespace strata::integrate;
 using namespace strata::render;
 using namespace strata::render::testing;
 using scene::EstimatorKind;

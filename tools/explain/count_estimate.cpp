@@ -70,7 +70,7 @@ Variance variance_within_parts(const std::vector<double>& values, int columns) {
 // Of the sum over all blocks: what chance may add or take, from what each has more or less than the mean of all rays.
 double chance(const PilotRun& pilot, const BlockCount& count, double mean) {
     std::vector<double> residual;
-    for (const render::Counters& block : pilot.by_block) {
+    for (const integrate::Counters& block : pilot.by_block) {
         residual.push_back(count.of(block) - mean * static_cast<double>(block.rays));
     }
     constexpr double kLeastDof = 3.0;  // with fewer the interval would tell nothing
@@ -85,7 +85,7 @@ double chance(const PilotRun& pilot, const BlockCount& count, double mean) {
 
 CountEstimate estimate_count(const PilotRun& pilot, double rays, const BlockCount& count) {
     double total = 0.0, doubt = 0.0;
-    for (const render::Counters& block : pilot.by_block) {
+    for (const integrate::Counters& block : pilot.by_block) {
         total += count.of(block);
         if (count.doubt) doubt += count.doubt(block);
     }

@@ -13,9 +13,9 @@ struct CountEstimate {
 };
 
 struct BlockCount {
-    std::function<double(const render::Counters&)> of;  // what is counted, in a block
+    std::function<double(const integrate::Counters&)> of;  // what is counted, in a block
     // By how much a render may count more or less for the same samples, in other batches; may be empty.
-    std::function<double(const render::Counters&)> doubt{};
+    std::function<double(const integrate::Counters&)> doubt{};
     bool at_most_one_a_ray = false;
 };
 

@@ -115,7 +115,7 @@ PilotRun run_pilot(const integrate::ImageFunction& image, const render::Estimato
     std::vector<glm::vec3> radiance;
     for (const render::Window& window : blocks.windows) {
         const std::vector<glm::ivec2> chosen = pixels_of(window);
-        render::Counters& counters = pilot.by_block.emplace_back();
+        integrate::Counters& counters = pilot.by_block.emplace_back();
         for (std::size_t first = 0; first < chosen.size(); first += batch) {
             const auto part = std::span(chosen).subspan(first, std::min(batch, chosen.size() - first));
             if (estimator.shared()) {
