@@ -74,14 +74,6 @@ double interpolate_ramps(std::array<double, (1 << D)> ramp, const Point<D>& frac
     return ramp[0];
 }
 
-// n(f) alone.
-template <int D>
-double interpolate_value(const CornerGradients<D>& gradients, const Point<D>& fraction) {
-    std::array<double, (1 << D)> ramp;
-    for (std::size_t c = 0; c < ramp.size(); ++c) ramp[c] = corner_ramp<D>(gradients[c], fraction, c);
-    return interpolate_ramps<D>(ramp, fraction);
-}
-
 // n(f), its gradient and its Hessian, by the product rule, in lattice units.
 template <int D>
 Jet<D> interpolate(const CornerGradients<D>& gradients, const Point<D>& fraction) {
@@ -109,35 +101,6 @@ Jet<D> interpolate(const CornerGradients<D>& gradients, const Point<D>& fraction
         }
     }
     return jet;
-}
-
-// d^3/ds^3 n(f + s d) at s = 0, on the side of a cell face that f's own cell is on.
-template <int D>
-double third_directional(const CornerGradients<D>& gradients, const Point<D>& fraction,
-                         const std::array<double, D>& d) {
-    const CornerWeights<D> weights(fraction);
-    double sum = 0.0;
-    for (std::size_t c = 0; c < gradients.size(); ++c) {
-        double along = 0.0;
-        double weight_second = 0.0;
-        double weight_third = 0.0;
-        for (std::size_t i = 0; i < D; ++i) {
-            along += gradients[c][i] * d[i];
-            for (std::size_t j = 0; j < D; ++j) {
-                std::array<std::size_t, D> orders{};
-                ++orders[i];
-                ++orders[j];
-                weight_second += weights.derivative(c, orders) * d[i] * d[j];
-                for (std::size_t k = 0; k < D; ++k) {
-                    std::array<std::size_t, D> third = orders;
-                    ++third[k];
-                    weight_third += weights.derivative(c, third) * d[i] * d[j] * d[k];
-                }
-            }
-        }
-        sum += 3.0 * weight_second * along + weight_third * corner_ramp<D>(gradients[c], fraction, c);
-    }
-    return sum;
 }
 
 }  // namespace strata::noise

@@ -52,4 +52,20 @@ void fbm_value(std::span<const Octave> octaves, const std::array<double, 2>& ori
 void fbm_value(std::span<const Octave> octaves, const std::array<double, 3>& origin,
                const std::array<std::span<const float>, 3>& offset, std::span<float> value);
 
+// The same values to the bit, with the sum's derivatives by position: those of an octave count a_k w_k and a_k w_k^2,
+// rounded to float once, times the noise's own.
+void fbm_gradient(std::span<const Octave> octaves, const std::array<double, 2>& origin,
+                  const std::array<std::span<const float>, 2>& offset, std::span<float> value,
+                  const GradientSpans<2>& gradient);
+void fbm_gradient(std::span<const Octave> octaves, const std::array<double, 3>& origin,
+                  const std::array<std::span<const float>, 3>& offset, std::span<float> value,
+                  const GradientSpans<3>& gradient);
+
+void fbm_hessian(std::span<const Octave> octaves, const std::array<double, 2>& origin,
+                 const std::array<std::span<const float>, 2>& offset, std::span<float> value,
+                 const GradientSpans<2>& gradient, const HessianSpans<2>& hessian);
+void fbm_hessian(std::span<const Octave> octaves, const std::array<double, 3>& origin,
+                 const std::array<std::span<const float>, 3>& offset, std::span<float> value,
+                 const GradientSpans<3>& gradient, const HessianSpans<3>& hessian);
+
 }  // namespace strata::noise

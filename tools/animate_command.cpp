@@ -1,18 +1,26 @@
 #include <fmt/format.h>
 
+#include <list>
 #include <memory>
+#include <optional>
 #include <system_error>
 
+#include "src/image/image_error.h"
+#include "src/image/not_finite.h"
 #include "src/image/write.h"
 #include "src/render/cancel.h"
 #include "src/render/progress_printer.h"
 #include "tools/already_there.h"
 #include "tools/animate/film.h"
+#include "tools/animate/frames_folder.h"
 #include "tools/animate/job.h"
 #include "tools/animate/sheet.h"
 #include "tools/batch_progress.h"
 #include "tools/commands.h"
+#include "tools/endings.h"
 #include "tools/errors.h"
+#include "tools/picture_metadata.h"
+#include "tools/planned_files.h"
 #include "tools/render_picture.h"
 #include "tools/standard_output.h"
 
@@ -21,6 +29,8 @@ namespace strata::tools {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int kMostFailures = 2;
 
 // A frame that is not there yet, and which of its files are to be written.
 struct Todo {
@@ -63,13 +73,15 @@ class Animator {
     int rendered() const { return rendered_; }
     std::uint64_t unresolved() const { return unresolved_; }
 
-    // False when it was stopped.
+    // Of files that could not be written, as was told.
+    bool all_written() const { return all_written_; }
+    bool has_film_source() const { return has_film_source_; }
+
+    // False when it was stopped. Ends early where no file of two frames in a row can be written.
     bool run() {
-        std::error_code ignored;  // writing says what is wrong with the folder
-        if (!job_.scratch.empty() && !work_.empty()) fs::create_directory(job_.scratch, ignored);
         for (const Todo& todo : work_) {
             if (!render_frame(todo)) return false;
-            ++rendered_;
+            if (failed_in_a_row_ == kMostFailures) return true;
         }
         return !cancel_.requested();
     }
@@ -113,21 +125,42 @@ class Animator {
         return true;
     }
 
-    void write(const Todo& todo, const std::vector<scene::Scene>& scenes,
-               const std::vector<image::Picture>& pictures) const {
+    void write(const Todo& todo, const std::vector<scene::Scene>& scenes, const std::vector<image::Picture>& pictures) {
         const image::Metadata metadata = frame_metadata(job_, todo.frame);
         if (job_.columns.empty()) {
-            for (const fs::path& path : todo.missing) {
-                image::write_picture(path, pictures.front(), metadata, job_.write);
-            }
+            image::WriteOptions options = job_.write;
+            options.frames_per_second = frame_rate(scenes.front());
+            write_each(todo, [&](const fs::path& path) {
+                image::write_picture(path, pictures.front(), metadata, options);
+            });
             return;
         }
         std::vector<image::Canvas> canvases;
         for (std::size_t i = 0; i < pictures.size(); ++i) {
+            const std::string not_finite = image::describe_not_finite(pictures[i]);
+            if (!not_finite.empty()) {
+                throw image::ImageError(fmt::format("frame {}, picture {}: {}", todo.frame, i + 1, not_finite));
+            }
             canvases.push_back(image::to_canvas(pictures[i], scenes[i].film.exposure));
         }
         const image::Canvas sheet = side_by_side(job_.columns, std::move(canvases));
-        for (const fs::path& path : todo.missing) image::write_canvas(path, sheet, metadata);
+        write_each(todo, [&](const fs::path& path) { image::write_canvas(path, sheet, metadata); });
+    }
+
+    template <class Write>
+    void write_each(const Todo& todo, const Write& write) {
+        bool any_written = false;
+        for (const fs::path& path : todo.missing) {
+            const bool written = is_written(path, [&] { write(path); });
+            any_written |= written;
+            all_written_ &= written;
+            const bool is_source =
+                !job_.films.empty() && path == job_.frames[job_.film_source].pattern.path(todo.frame);
+            has_film_source_ &= written || !is_source;
+        }
+        if (any_written) ++rendered_;
+        failed_in_a_row_ = any_written ? 0 : failed_in_a_row_ + 1;
+        has_film_source_ &= failed_in_a_row_ < kMostFailures;
     }
 
     const AnimateJob& job_;
@@ -137,14 +170,44 @@ class Animator {
     BatchProgress progress_;
     int rendered_ = 0;
     std::uint64_t unresolved_ = 0;
+    int failed_in_a_row_ = 0;
+    bool all_written_ = true, has_film_source_ = true;
 };
 
-void remove_scratch(const AnimateJob& job) {
-    if (job.scratch.empty()) return;
+// Their folder goes by itself.
+void remove_scratch_frames(const AnimateJob& job) {
     std::error_code ignored;
-    const FramePattern& pattern = job.frames[job.film_source].pattern;
-    for (const int frame : job.range) fs::remove(pattern.path(frame), ignored);
-    fs::remove(job.scratch, ignored);  // unless there is something else in it
+    const FrameOutput& source = job.frames[job.film_source];
+    if (!source.is_scratch) return;
+    for (const int frame : job.range) fs::remove(source.pattern.path(frame), ignored);
+}
+
+struct FilmOutput {
+    explicit FilmOutput(const fs::path& film) : path(film), file(film) {}
+
+    fs::path path;
+    image::ScratchFile file;
+};
+
+// Each fails alone. False if one did.
+bool make_films(const AnimateJob& job, std::list<FilmOutput>& films, const render::CancelToken& cancel) {
+    bool all = true;
+    for (FilmOutput& film : films) {
+        const FilmTiming timing = film_timing(film.path, job.range, job.scene.shutter.fps);
+        try {
+            encode_film(film.path, film.file, job.frames[job.film_source].pattern, timing, job.width, job.height);
+            if (!cancel.requested()) film.file.place();
+        } catch (const std::exception& error) {
+            // The signal that stopped this program stopped ffmpeg too.
+            if (cancel.requested()) return false;
+            print_error(message_of(error));
+            all = false;
+            continue;
+        }
+        if (cancel.requested()) return false;
+        if (!job.quiet) print_out(fmt::format("wrote    {} ({})\n", film.path.string(), described(timing, job.range)));
+    }
+    return all;
 }
 
 void say_what_was_done(const AnimateJob& job, const Animator& animator) {
@@ -155,7 +218,8 @@ void say_what_was_done(const AnimateJob& job, const Animator& animator) {
     }
     print_out(fmt::format("frames   {} rendered, {} kept\n", animator.rendered(), animator.kept()));
     for (const FrameOutput& output : job.frames) {
-        if (!output.is_scratch) print_out(fmt::format("wrote    {}\n", output.pattern.text()));
+        if (output.is_scratch || !animator.all_written()) continue;
+        print_out(fmt::format("wrote    {}\n", output.pattern.text()));
     }
 }
 
@@ -170,25 +234,24 @@ int stopped(const AnimateJob& job, const Animator& animator) {
 int animate_command(const AnimateRequest& request) {
     static render::CancelToken cancel;
     render::cancel_on_signals(cancel);
-    const AnimateJob job = prepare_animation(request);
+    AnimateJob job = prepare_animation(request);
+    std::list<FilmOutput> films;
+    for (const fs::path& film : job.films) films.emplace_back(film);
+    std::optional<FramesFolder> folder;
+    if (has_scratch_frames(job)) add_scratch_frames(job, folder.emplace(job.films.front()).path());
     Animator animator(job, cancel);
     if (!animator.run()) return stopped(job, animator);
     say_what_was_done(job, animator);
-    for (const fs::path& film : job.films) {
-        const FilmTiming timing = film_timing(film, job.range, job.scene.shutter.fps);
-        try {
-            encode_film(film, job.frames[job.film_source].pattern, timing, job.width, job.height);
-        } catch (const std::exception&) {
-            // The signal that stopped this program stopped ffmpeg too.
-            if (!cancel.requested()) throw;
-        }
+    bool all_written = animator.all_written();
+    if (animator.has_film_source() && !films.empty()) {
+        const bool all_made = make_films(job, films, cancel);
         if (cancel.requested()) return kExitSignal + render::cancelling_signal();
-        if (!job.quiet) {
-            print_out(fmt::format("wrote    {} ({})\n", film.string(), described(timing, job.range)));
-        }
+        if (all_made) remove_scratch_frames(job);
+        all_written &= all_made;
+    } else if (!films.empty()) {
+        print_error("no film was made: some of its frames could not be written");
     }
-    remove_scratch(job);
-    return 0;
+    return all_written ? 0 : kExitRuntime;
 }
 
 void add_column_options(Command& command, AnimateRequest& request) {
@@ -228,7 +291,8 @@ void add_animate_command(Command& program, int& exit_code) {
     command->add_option("--tracer", request->tracer, "fast, or reference")->type_name("NAME")->capture_default_str();
     command->add_option("--simd", request->simd, "avx512, avx2, sse4 or scalar; default the best that is here")
         ->type_name("TARGET");
-    command->add_option("--format", request->format, "EXR channels: half or float; default half")->type_name("NAME");
+    command->add_option("--format", request->format, "EXR channels: half (up to 65504) or float; default half")
+        ->type_name("NAME");
     command->add_flag("--quiet", request->quiet, "No progress, summary or warnings");
     command->footer(
         "Frame k begins at k / shutter.fps seconds. What moves: camera.keys, surface.spin_deg_per_s, surface.drift, "
@@ -239,7 +303,7 @@ void add_animate_command(Command& program, int& exit_code) {
         "of other settings is refused before anything is rendered, unless --overwrite is given. Films alone keep their "
         "frames in FILE.frames until they "
         "are\n"
-        "encoded; interrupted, the same command goes on from them.\n"
+        "encoded (of two runs at once one has FILE-2.frames); interrupted, the same command goes on from them.\n"
         "A film of every second frame (--frames 0-100x2) shows half as many a second. A GIF shows up to 50 a second "
         "and\n"
         "leaves out the others; it plays as long as the frames take, to a hundredth of a second.\n"

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "src/image/image_error.h"
-#include "src/image/output_file.h"
 #include "src/render/cancel.h"
 #include "src/render/progress_printer.h"
 #include "tools/bench/peers.h"
@@ -15,6 +14,7 @@
 #include "tools/bench/run.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
+#include "tools/planned_files.h"
 #include "tools/scene_argument.h"
 #include "tools/standard_output.h"
 
@@ -57,7 +57,7 @@ bench::PlanSettings parse_settings(const BenchRequest& request) {
     return settings;
 }
 
-fs::path prepare_folder(const BenchRequest& request) {
+fs::path prepare_folder(const BenchRequest& request, PlannedFiles& files) {
     fs::path path(request.folder);
     std::error_code error;
     fs::create_directories(path, error);
@@ -65,7 +65,7 @@ fs::path prepare_folder(const BenchRequest& request) {
         throw image::ImageError(fmt::format("-o {}: cannot make this folder: {}", path.string(),
                                             error ? error.message() : "a file is in its place"));
     }
-    for (const fs::path& file : bench::report_files(path)) image::check_replaceable(file);
+    for (const fs::path& file : bench::report_files(path)) files.plan(file);
     check_plotter();
     return path;
 }
@@ -83,7 +83,8 @@ int bench_command(const BenchRequest& request) {
         bench::check_comparable(*earlier, plan);
     }
     fs::path folder;
-    if (!request.no_files) folder = prepare_folder(request);
+    PlannedFiles files;
+    if (!request.no_files) folder = prepare_folder(request, files);
     if (plan.has(Section::peers)) bench::install_peers();
 
     render::ProgressPrinter progress(request.quiet);
@@ -101,7 +102,8 @@ int bench_command(const BenchRequest& request) {
         return kExitSignal + render::cancelling_signal();
     }
     if (request.no_files) return 0;
-    bench::write_report(folder, results, figures, comparisons);
+    bench::write_report(folder, results, figures, comparisons, files);
+    if (!files.all_written()) return kExitRuntime;
     if (!request.quiet) print_out(fmt::format("\nwrote    {}\n", folder.string()));
     return 0;
 }

@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "src/image/image_error.h"
-#include "src/image/output_file.h"
 #include "src/render/cancel.h"
 #include "src/render/progress_printer.h"
 #include "src/scene/enum_names.h"
@@ -17,6 +16,7 @@
 #include "tools/converge/report.h"
 #include "tools/duration.h"
 #include "tools/errors.h"
+#include "tools/planned_files.h"
 #include "tools/scene_argument.h"
 #include "tools/standard_output.h"
 
@@ -117,7 +117,7 @@ ConvergeSettings parse_settings(const ConvergeRequest& request, const scene::Sce
     return settings;
 }
 
-fs::path prepare_folder(const std::string& folder, const std::string& name) {
+fs::path prepare_folder(const std::string& folder, const std::string& name, PlannedFiles& files) {
     fs::path path = folder.empty() ? fs::path(name + "-converge") : fs::path(folder);
     std::error_code error;
     fs::create_directories(path, error);
@@ -125,7 +125,7 @@ fs::path prepare_folder(const std::string& folder, const std::string& name) {
         throw image::ImageError(fmt::format("-o {}: cannot make this folder: {}", path.string(),
                                             error ? error.message() : "a file is in its place"));
     }
-    for (const fs::path& file : report_files(path)) image::check_replaceable(file);
+    for (const fs::path& file : report_files(path)) files.plan(file);
     check_plotter();
     return path;
 }
@@ -136,7 +136,8 @@ int converge_command(const ConvergeRequest& request) {
     LoadedScene loaded = request.scene.load();
     choose_size(request, loaded.scene.film);
     const ConvergeSettings settings = parse_settings(request, loaded.scene);
-    const fs::path folder = prepare_folder(request.folder, loaded.name);
+    PlannedFiles files;
+    const fs::path folder = prepare_folder(request.folder, loaded.name, files);
     render::ProgressPrinter progress(request.quiet);
     const Experiment experiment = run_experiment(loaded.scene, settings, progress, cancel);
     progress.clear();
@@ -145,12 +146,15 @@ int converge_command(const ConvergeRequest& request) {
     } else {
         const Analysis analysis = analyse(experiment);
         const ConvergeReport report{loaded.name, experiment, analysis};
-        write_report(report, folder);
+        write_report(report, folder, files);
         if (!request.quiet) {
             print_out(converge_summary(report));
-            print_out(fmt::format("\nwrote    {} in {}\n", folder.string(), render::duration_text(experiment.seconds)));
+            if (files.all_written())
+                print_out(
+                    fmt::format("\nwrote    {} in {}\n", folder.string(), render::duration_text(experiment.seconds)));
         }
     }
+    if (!files.all_written()) return kExitRuntime;
     return render::cancelling_signal() != 0 ? kExitSignal + render::cancelling_signal() : 0;
 }
 

@@ -1,17 +1,15 @@
 // strata explain: what a render does, what it leaves out, and what it will cost.
-#include <filesystem>
 #include <memory>
-#include <system_error>
 
 #include "noise/simd_target.h"
-#include "src/image/image_error.h"
-#include "src/image/output_file.h"
+#include "src/image/file_paths.h"
 #include "src/render/cancel.h"
 #include "src/render/progressive.h"
 #include "tools/aov.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
 #include "tools/explain/explanation.h"
+#include "tools/planned_files.h"
 #include "tools/scene_argument.h"
 #include "tools/settings_mark.h"
 #include "tools/standard_output.h"
@@ -19,8 +17,6 @@
 namespace strata::tools {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ExplainRequest {
     SceneArgument scene;
@@ -30,19 +26,14 @@ struct ExplainRequest {
 
 constexpr int kMostThreads = 1024;
 
-bool same_file(const fs::path& a, const fs::path& b) {
-    std::error_code error;
-    return fs::equivalent(a, b, error) && !error;
-}
-
-void check_json(const ExplainRequest& request, const LoadedScene& loaded) {
+void plan_json(const ExplainRequest& request, const LoadedScene& loaded, PlannedFiles& files) {
     if (request.json.empty()) return;
     for (const std::string& input : {loaded.source, request.statistics}) {
-        if (!input.empty() && same_file(input, request.json)) {
+        if (!input.empty() && image::is_one_file(input, request.json)) {
             throw UsageError("--json " + request.json + ": this is what is to be read; allowed: a file of its own");
         }
     }
-    image::check_replaceable(request.json);
+    files.plan(request.json);
     keep_output_for(request.json);
 }
 
@@ -64,7 +55,8 @@ int explain_command(const ExplainRequest& request) {
     explanation.scene = loaded.scene;
     const std::string passes_text = !request.passes.empty() ? request.passes : loaded.passes.value_or("1");
     int passes = parse_integer("--passes", passes_text, 1, render::kMostPasses);
-    check_json(request, loaded);
+    PlannedFiles files;
+    plan_json(request, loaded, files);
     if (!request.statistics.empty()) {
         const std::string mark = settings_mark(loaded.scene, explanation.window, explanation.tracer);
         explanation.recorded = read_recorded(request.statistics, mark, count_rays(loaded.scene, explanation.window));
@@ -75,12 +67,9 @@ int explain_command(const ExplainRequest& request) {
     explanation.prediction = predict(
         loaded.scene, explanation.window,
         {.tracer = tracer, .threads = threads, .passes = passes, .aovs = aovs, .with_pilot = !request.no_pilot});
-    if (!request.json.empty()) {
-        const std::string text = explanation_json(explanation);
-        image::replace_file(request.json, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
-    }
+    if (!request.json.empty()) files.write(request.json, explanation_json(explanation));
     if (!request.quiet) print_out(explanation_text(explanation));
-    return 0;
+    return files.all_written() ? 0 : kExitRuntime;
 }
 
 }  // namespace
@@ -116,8 +105,11 @@ void add_explain_command(Command& program, int& exit_code) {
         ->type_name("FILE.json");
     command->add_flag("--quiet", request->quiet, "No text");
     command->footer(
-        "A pilot casts 1 % of the rays - at least 4096, or all; at most 262144, or 16384 of the reference tracer's -\n"
-        "spread over the frame, on one thread. Counts are the same in every run; times are not;\n"
+        "A pilot casts 1 % of the rays - at least 65536, or all of up to 131072; at most 262144, or 16384 of the "
+        "reference tracer's - "
+        "in\n"
+        "small blocks all over the frame, on one thread. What the blocks differ by tells the interval that holds a\n"
+        "count 99 times in 100. Counts are the same in every run; times are not;\n"
         "`seconds` supposes a core for every thread.\n"
         "Distances and wavelengths are in world units; a pixel is that at the frame's centre, mid-shutter. `below\n"
         "tolerance from`: farther away the octave raises or lowers the surface by less than a hit's tolerance.\n"
@@ -129,7 +121,8 @@ void add_explain_command(Command& program, int& exit_code) {
         "relief [{name, type, of, octaves, low, high, slope, bend}], its terms with bounds in surface units;\n"
         "pilot {rays, share, cpu_seconds} or null; recorded {passes, threads, simd_target} or null, of --stats;\n"
         "costs {rays, shadow_rays, hits, noise_evaluations, executed_lanes, steps, cpu_seconds, seconds,\n"
-        "peak_memory_bytes}, each {predicted, actual, ratio}, null where not known. Of several "
+        "peak_memory_bytes}, each {predicted, low, high, actual, ratio}, null where not known.\n"
+        "low and high: of counts. Of several "
         "passes costs are those of one.\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, scene or --stats.");
     command->callback([request, &exit_code] { exit_code = explain_command(*request); });

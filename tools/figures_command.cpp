@@ -12,6 +12,7 @@
 #include "tools/figures/figure_maker.h"
 #include "tools/figures/films.h"
 #include "tools/figures/page.h"
+#include "tools/planned_files.h"
 #include "tools/plot/plot.h"
 #include "tools/process.h"
 #include "tools/scene_argument.h"
@@ -65,13 +66,16 @@ figures::Size parse_size(const std::string& name) {
 }
 
 // The folder, made if need be; everything else that the figures need is there.
-void check_surroundings(const std::vector<Figure>& chosen, const fs::path& folder) {
+void check_surroundings(const std::vector<Figure>& chosen, const figures::MakeOptions& options) {
+    const fs::path& folder = options.folder;
     image::check_fonts();
     if (std::ranges::any_of(chosen, &Figure::is_plot)) check_plotter();
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw UsageError(fmt::format("-o {}: {}", folder.string(), error.message()));
-    for (const Figure& figure : chosen) image::check_replaceable(figures::record_path(folder, figure.number));
+    for (const Figure& figure : chosen) {
+        for (const fs::path& path : figures::paths_of(figure, options)) image::check_replaceable(path);
+    }
     image::check_replaceable(folder / kPage);
 }
 
@@ -81,18 +85,23 @@ void say(const char* what, const fs::path& path, bool quiet) {
     if (!quiet) print_out(fmt::format("{}     {}\n", what, path.string()));
 }
 
-void make_films(const figures::MakeOptions& options, const std::string& threads) {
+// Each fails alone. False if one did.
+bool make_films(const figures::MakeOptions& options, const std::string& threads) {
+    bool all = true;
     for (const figures::Film& film : figures::films(options.size)) {
         const bool kept = !options.overwrite && figures::is_made(film, options.folder, options.quiet);
-        if (!kept && !figures::make_film(film, {.folder = options.folder,
-                                                .size = options.size,
-                                                .threads = threads,
-                                                .quiet = options.quiet,
-                                                .overwrite = options.overwrite})) {
-            throw figures::Interrupted();
-        }
+        const auto make = [&] {
+            const figures::FilmOptions how{.folder = options.folder,
+                                           .size = options.size,
+                                           .threads = threads,
+                                           .quiet = options.quiet,
+                                           .overwrite = options.overwrite};
+            if (!figures::make_film(film, how)) throw figures::Interrupted();
+        };
+        if (!kept) all &= is_written(options.folder / film.name, make);
         if (kept) say("kept", options.folder / film_files(film).front(), options.quiet);
     }
+    return all;
 }
 
 void make_page(const figures::MakeOptions& options) {
@@ -108,17 +117,18 @@ int figures_command(const FiguresRequest& request) {
                                        .threads = parse_integer("--threads", request.threads, 0, kMostThreads),
                                        .quiet = request.quiet,
                                        .overwrite = request.overwrite};
-    check_surroundings(chosen, options.folder);
+    check_surroundings(chosen, options);
     if (makes_films(request)) find_program("ffmpeg", "ffmpeg", "video");
     render::cancel_on_signals(cancel);
+    int exit_code = 0;
     try {
-        figures::make_figures(chosen, options, cancel);
-        if (makes_films(request)) make_films(options, request.threads);
+        if (!figures::make_figures(chosen, options, cancel)) exit_code = kExitRuntime;
+        if (makes_films(request) && !make_films(options, request.threads)) exit_code = kExitRuntime;
         if (request.html) make_page(options);
     } catch (const figures::Interrupted&) {
         if (!options.quiet) print_out("stopped  finished figures are kept: the same command makes the rest\n");
     }
-    return render::cancelling_signal() != 0 ? kExitSignal + render::cancelling_signal() : 0;
+    return render::cancelling_signal() != 0 ? kExitSignal + render::cancelling_signal() : exit_code;
 }
 
 }  // namespace

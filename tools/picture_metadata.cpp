@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+#include <numeric>
+
 #include "noise/simd_target.h"
 #include "src/scene/enum_names.h"
+#include "src/scene/needs.h"
 #include "src/scene/printer.h"
 
 namespace strata::tools {
@@ -14,6 +19,19 @@ std::string filter_text(const scene::Sampling& sampling) {
     if (sampling.estimator == scene::EstimatorKind::none) return "none";
     if (sampling.estimator == scene::EstimatorKind::super) return "box";
     return fmt::format("B-spline of order {}", sampling.m);
+}
+
+// The fraction nearest to a rate, of whole numbers that an EXR has room for. Decimals have up to six digits behind the
+// point, but for rates too high to need them.
+image::FrameRate nearest_fraction(double numerator, double denominator) {
+    constexpr double kMost = std::numeric_limits<int>::max();
+    while (numerator != std::floor(numerator) && denominator < 1e6 && numerator * 10 < kMost) {
+        numerator *= 10;
+        denominator *= 10;
+    }
+    const auto above = static_cast<int>(std::lround(numerator)), below = static_cast<int>(std::lround(denominator));
+    const int common = std::gcd(above, below);
+    return {above / common, below / common};
 }
 
 }  // namespace
@@ -42,6 +60,12 @@ void set_passes(image::Metadata& metadata, const scene::Sampling& sampling, int 
     if (passes <= 1) return;
     metadata.set("strata:passes", passes);
     metadata.set("strata:samples", std::int64_t{passes} * sampling.N * sampling.N);
+}
+
+std::optional<image::FrameRate> frame_rate(const scene::Scene& scene) {
+    const bool is_animated = scene.shutter.frame != 0 || !scene.camera.keys.empty() || scene::motion(scene).any();
+    if (!is_animated) return std::nullopt;
+    return nearest_fraction(scene.shutter.fps.numerator(), scene.shutter.fps.denominator());
 }
 
 }  // namespace strata::tools

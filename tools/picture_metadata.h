@@ -1,8 +1,10 @@
 // What a picture says of itself, so that it can be rendered again.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "src/image/encode.h"
 #include "src/image/metadata.h"
 #include "src/render/film.h"
 #include "src/scene/scene.h"
@@ -16,5 +18,8 @@ image::Metadata picture_metadata(const scene::Scene& scene, const render::Window
 // Adds what a picture of several passes has to say: their number, and all samples of a pixel. One pass says nothing: it
 // is the plain render.
 void set_passes(image::Metadata& metadata, const scene::Sampling& sampling, int passes);
+
+// What an EXR says of its frame rate: nothing for the first frame of a scene in which nothing moves.
+std::optional<image::FrameRate> frame_rate(const scene::Scene& scene);
 
 }  // namespace strata::tools

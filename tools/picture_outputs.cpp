@@ -4,31 +4,33 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <exception>
-#include <new>
+#include <utility>
 
 #include "src/image/stream_target.h"
+#include "tools/planned_files.h"
 #include "tools/standard_output.h"
 
 namespace strata::tools {
 
-namespace {
-
 namespace fs = std::filesystem;
 
-image::PictureShape shape_of(const Job& job) {
-    const scene::Film& frame = job.loaded.scene.film;
-    const render::Window& w = job.window;
-    return {frame.width, frame.height, w.x0, w.y0, w.x1, w.y1};
+PictureOutputs::PictureOutputs(const Job& job) : job_(job) {
+    for (const fs::path& path : job.outputs) {
+        outputs_.push_back({path, std::make_unique<image::OutputFile>(path), std::nullopt});
+    }
+    for (const Aov aov : job.aovs) costs_.emplace_back(job, aov);
 }
 
-}  // namespace
+void PictureOutputs::begin(Output& output, const image::Metadata& metadata) {
+    output.stream.emplace(std::move(output.file), job_.shape(), metadata, job_.write);
+}
 
-PictureOutputs::PictureOutputs(const Job& job, const image::Metadata& metadata) : job_(job) {
-    for (const Aov aov : job.aovs) costs_.emplace_back(aov, job.window);
-    for (const fs::path& path : job.outputs) {
-        outputs_.push_back({path, image::PictureStream(path, shape_of(job), metadata, job.write)});
-    }
+void PictureOutputs::begin(const image::Metadata& metadata) {
+    for (Output& output : outputs_) begin(output, metadata);
+}
+
+void PictureOutputs::begin_late(const image::Metadata& metadata) {
+    for (Output& output : outputs_) is_written(output.path, [&] { begin(output, metadata); });
 }
 
 // Of each file that is left: a failure ends that file alone.
@@ -36,15 +38,7 @@ template <class Action>
 void PictureOutputs::for_each(const Action& action) {
     for (Output& output : outputs_) {
         if (!output.stream) continue;
-        try {
-            action(output);
-            continue;
-        } catch (const std::bad_alloc&) {
-            print_error(fmt::format("out of memory while writing \"{}\"", output.path.string()));
-        } catch (const std::exception& error) {
-            print_error(error.what());
-        }
-        output.stream.reset();
+        if (!is_written(output.path, [&] { action(output); })) output.stream.reset();
     }
 }
 
@@ -56,7 +50,7 @@ void PictureOutputs::write_rows(std::span<const glm::vec3> pixels, std::span<con
 
 void PictureOutputs::write(const render::Film& strip) {
     write_rows(strip.pixels(), aov_values(job_.aovs, strip));
-    for (CostPicture& picture : costs_) picture.add(strip);
+    for (Costs& costs : costs_) costs.picture.add(strip);
 }
 
 void PictureOutputs::write_whole(const render::Film& film) {
@@ -75,20 +69,30 @@ bool PictureOutputs::all() const {
     return std::ranges::all_of(outputs_, [](const Output& output) { return output.stream.has_value(); });
 }
 
-bool PictureOutputs::write_costs(bool is_partial, const image::Metadata& metadata) {
-    bool all_written = true;
-    for (const CostPicture& picture : costs_) {
-        const fs::path path = aov_path(job_, picture.aov());
-        const fs::path target = is_partial ? partial_path(path) : path;
-        try {
-            image::write_canvas(target, picture.draw(job_.loaded.scene.title), metadata);
-            tell_written(target);
-        } catch (const std::exception& error) {
-            print_error(error.what());
-            all_written = false;
-        }
+bool PictureOutputs::write_costs() {
+    bool all = true;
+    for (Costs& costs : costs_) {
+        const fs::path& path = costs.file.target();
+        all &= is_written(path, [&] {
+            const image::Canvas canvas = costs.picture.draw(job_.loaded.scene.title);
+            costs.file.write_at(0, image::encode_canvas(path, canvas, job_.metadata));
+            costs.file.put_in_place();
+            tell_written(path);
+        });
     }
-    return all_written;
+    return all;
+}
+
+bool PictureOutputs::write_partial_costs(const image::Metadata& metadata) {
+    bool all = true;
+    for (const Costs& costs : costs_) {
+        const fs::path path = partial_path(job_, costs.file.target());
+        all &= is_written(path, [&] {
+            image::write_canvas(path, costs.picture.draw(job_.loaded.scene.title), metadata);
+            tell_written(path);
+        });
+    }
+    return all;
 }
 
 void PictureOutputs::tell_written(const fs::path& path) const {
@@ -100,18 +104,18 @@ bool PictureOutputs::finish() {
         output.stream->finish();
         tell_written(output.path);
     });
-    return write_costs(false, job_.metadata) && all();
+    return write_costs() && all();
 }
 
 bool PictureOutputs::finish_partial(const image::Metadata& metadata) {
     for_each([&](Output& output) {
         // Whoever reads a stream could not tell a part from the whole.
         if (image::stream_target(output.path)) return;
-        const fs::path target = partial_path(output.path);
+        const fs::path target = partial_path(job_, output.path);
         output.stream->finish_partial(target, metadata);
         tell_written(target);
     });
-    return write_costs(true, metadata) && all();
+    return write_partial_costs(metadata) && all();
 }
 
 }  // namespace strata::tools

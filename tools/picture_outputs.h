@@ -2,11 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <list>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "src/image/metadata.h"
+#include "src/image/output_file.h"
 #include "src/image/picture_stream.h"
 #include "src/render/film.h"
 #include "tools/render_job.h"
@@ -16,9 +19,14 @@ namespace strata::tools {
 // A file that cannot be written is told on standard error and given up; the others go on.
 class PictureOutputs {
   public:
-    // Begins the files of the job, which stays where it is,, hidden until they are whole. Throws ImageError when one
-    // cannot be begun.
-    PictureOutputs(const Job& job, const image::Metadata& metadata);
+    // Begins all files of the job, which stays where it is: hidden until they are whole. For before the first ray.
+    // Throws ImageError when one cannot be begun.
+    explicit PictureOutputs(const Job& job);
+
+    // Their heads, once what they are to say is known: before the first ray, where one that fails is an error of all,
+    // or when all passes are done and each fails alone.
+    void begin(const image::Metadata& metadata);
+    void begin_late(const image::Metadata& metadata);
 
     // The next image::kStripRows rows, or those that are left.
     void write(const render::Film& strip);
@@ -38,18 +46,28 @@ class PictureOutputs {
   private:
     struct Output {
         std::filesystem::path path;
-        std::optional<image::PictureStream> stream;  // empty: given up
+        std::unique_ptr<image::OutputFile> file;     // until it has a head
+        std::optional<image::PictureStream> stream;  // empty after that: given up
     };
 
+    struct Costs {
+        Costs(const Job& job, Aov aov) : picture(aov, job.window), file(aov_path(job, aov)) {}
+
+        CostPicture picture;
+        image::OutputFile file;
+    };
+
+    void begin(Output& output, const image::Metadata& metadata);
     template <class Action>
     void for_each(const Action& action);
     void write_rows(std::span<const glm::vec3> pixels, std::span<const float> extra);
-    bool write_costs(bool is_partial, const image::Metadata& metadata);
+    bool write_costs();
+    bool write_partial_costs(const image::Metadata& metadata);
     bool all() const;
     void tell_written(const std::filesystem::path& path) const;
 
     const Job& job_;
-    std::vector<CostPicture> costs_;
+    std::list<Costs> costs_;
     std::vector<Output> outputs_;
 };
 

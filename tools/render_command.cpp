@@ -1,18 +1,16 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <memory>
-#include <new>
 
 #include "src/integrate/make_image.h"
 #include "src/render/cancel.h"
 #include "src/render/progress_printer.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
-#include "tools/picture_metadata.h"
 #include "tools/picture_outputs.h"
+#include "tools/planned_files.h"
 #include "tools/render_job.h"
 #include "tools/run_statistics.h"
 #include "tools/settings_mark.h"
@@ -22,33 +20,13 @@ namespace strata::tools {
 
 namespace {
 
-// Runs write(); a failure is told and does not keep other files from being written.
-template <class Write>
-bool succeeds(const Write& write) {
-    try {
-        write();
-        return true;
-    } catch (const std::bad_alloc&) {
-        print_error("out of memory while writing");
-    } catch (const std::exception& error) {
-        print_error(error.what());
-    }
-    return false;
-}
-
-image::Metadata final_metadata(const Job& job, const render::ProgressiveResult& result) {
-    image::Metadata metadata = job.metadata;
-    set_passes(metadata, job.loaded.scene.sampling, result.passes);
-    if (result.render.cancelled) {
-        metadata.set("strata:partial",
-                     result.passes == 0 ? "unfinished pixels are black"
-                                        : fmt::format("the mean of {} whole passes; more were wanted", result.passes));
-    }
-    return metadata;
+// Of one pass the metadata tell no number.
+image::Metadata metadata_of(const Job& job, const render::ProgressiveResult& result) {
+    return final_metadata(job, result.passes, result.render.cancelled);
 }
 
 bool finish(PictureOutputs& outputs, const Job& job, const render::ProgressiveResult& result) {
-    return result.render.cancelled ? outputs.finish_partial(final_metadata(job, result)) : outputs.finish();
+    return result.render.cancelled ? outputs.finish_partial(metadata_of(job, result)) : outputs.finish();
 }
 
 struct Rendered {
@@ -60,11 +38,11 @@ struct Rendered {
 using TellEnd = std::function<void(const render::ProgressiveResult&)>;
 
 // One pass goes into its files while it is rendered.
-Rendered render_streamed(const Job& job, const render::RenderOptions& options, render::CancelToken& cancel,
-                         const TellEnd& tell_end) {
+Rendered render_streamed(const Job& job, PictureOutputs& outputs, const render::RenderOptions& options,
+                         render::CancelToken& cancel, const TellEnd& tell_end) {
     const auto image = integrate::make_image(job.loaded.scene, parse_tracer(job.tracer));
     const render::Estimator estimator(render::estimator_settings(job.loaded.scene));
-    PictureOutputs outputs(job, job.metadata);
+    outputs.begin(job.metadata);
     Rendered rendered;
     render::ProgressiveResult& result = rendered.result;
     result.render = render::render_strips(*image, estimator, job.window, options, image::kStripRows,
@@ -80,14 +58,15 @@ Rendered render_streamed(const Job& job, const render::RenderOptions& options, r
 }
 
 // The mean of several passes is known at their end.
-Rendered render_in_passes(const Job& job, const render::RenderOptions& options, const TellEnd& tell_end) {
+Rendered render_in_passes(const Job& job, PictureOutputs& outputs, const render::RenderOptions& options,
+                          const TellEnd& tell_end) {
     const auto image = integrate::make_image(job.loaded.scene, parse_tracer(job.tracer));
     Rendered rendered;
     render::ProgressiveResult& result = rendered.result;
     result = render::render_progressively(*image, render::estimator_settings(job.loaded.scene), job.window, job.goal,
                                           options);
     tell_end(result);
-    PictureOutputs outputs(job, final_metadata(job, result));
+    outputs.begin_late(metadata_of(job, result));
     outputs.write_whole(result.render.film);
     rendered.all_written = finish(outputs, job, result);
     return rendered;
@@ -109,6 +88,9 @@ int render_command(const RenderRequest& request) {
     static render::CancelToken cancel;
     render::cancel_on_signals(cancel);
     const Job job = prepare(request);
+    PictureOutputs outputs(job);
+    PlannedFiles others;
+    if (!job.statistics.empty()) others.plan(job.statistics);
     render::ProgressPrinter progress(job.quiet);
     const render::RenderOptions options{.threads = job.threads,
                                         .tile = job.tile,
@@ -120,15 +102,13 @@ int render_command(const RenderRequest& request) {
         warn_of_unresolved(job, result.render.counters.unresolved_rays);
         if (result.render.cancelled && !job.quiet) print_out(stopped_line(job, result));
     };
-    Rendered rendered = job.goal.passes > 1 ? render_in_passes(job, options, tell_end)
-                                            : render_streamed(job, options, cancel, tell_end);
+    Rendered rendered = job.goal.passes > 1 ? render_in_passes(job, outputs, options, tell_end)
+                                            : render_streamed(job, outputs, options, cancel, tell_end);
     RunStatistics statistics = collect(rendered.result, job.goal, job.loaded.name);
     statistics.settings_mark = settings_mark(job.loaded.scene, job.window, job.tracer);
-    if (!job.statistics.empty()) {
-        rendered.all_written &= succeeds([&] { write_statistics(job.statistics, statistics); });
-    }
+    if (!job.statistics.empty()) others.write(job.statistics, statistics_json(statistics));
     if (!job.quiet) print_out(summary(statistics));
-    if (!rendered.all_written) return kExitRuntime;
+    if (!rendered.all_written || !others.all_written()) return kExitRuntime;
     // A signal that came too late to stop the render is still why the user expects an end.
     return render::cancelling_signal() != 0 ? kExitSignal + render::cancelling_signal() : 0;
 }
@@ -163,7 +143,8 @@ void add_render_command(Command& program, int& exit_code) {
         ->type_name("TARGET");
     command
         ->add_option("--format", request->format,
-                     "EXR channels: half or float; default half. Or what goes to standard output or a pipe: exr (the "
+                     "EXR channels: half (up to 65504) or float; default half. Or what goes to standard output or a "
+                     "pipe: exr (the "
                      "default), png, tif or jpg")
         ->type_name("NAME");
     command->add_flag("--tiled", request->tiled,
@@ -181,10 +162,10 @@ void add_render_command(Command& program, int& exit_code) {
                      "or --time-limit at most so many; default 1")
         ->type_name("K");
     command
-        ->add_option(
-            "--target-rmse", request->target_rmse,
-            "Add passes, four at least, until the noise of linear radiance, told from the passes' differences, "
-            "is at most this RMSE with 95 % confidence")
+        ->add_option("--target-rmse", request->target_rmse,
+                     "Add passes, four at least, until the sampling error of linear radiance, told from the passes "
+                     "themselves, is at most "
+                     "this RMSE with 95 % confidence")
         ->type_name("E");
     command
         ->add_option("--time-limit", request->time_limit,
@@ -203,10 +184,14 @@ void add_render_command(Command& program, int& exit_code) {
         "--tracer, --simd and --passes included; at another --size a crop shows the same part of the frame.\n"
         "The picture of K passes is the same whatever stopped it at K: its metadata hold K, and --passes K makes it "
         "again."
-        "\nThe noise told from differences leaves out what all passes share: the bias, of order 1/N^2, of jittered and "
-        "shared.\n"
+        "\nThe sampling error that is told is that of this picture, before it is rounded for a file, against "
+        "infinitely "
+        "many passes of the same N and tolerance; the bias of jittered and shared, which falls with the number of "
+        "passes, is in it. Hits off the surface by up to the tolerance are not.\n"
         "On SIGINT, SIGTERM or SIGHUP what is finished is written as NAME.partial.EXT, of several passes the mean of "
         "the whole ones; an earlier NAME.EXT stays.\n"
+        "A file that cannot be put in place is kept whole as NAME.kept.EXT, beside it or in TMPDIR, and told; the "
+        "others are written.\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 129, 130 or 143 interrupted.");
     command->callback([request, &exit_code] { exit_code = render_command(*request); });
 }

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <system_error>
 
 #include "noise/simd_target.h"
+#include "src/image/file_paths.h"
 #include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
@@ -16,9 +16,11 @@
 #include "src/scene/enum_names.h"
 #include "src/scene/key_text.h"
 #include "src/scene/typed_number.h"
+#include "tools/clipping.h"
 #include "tools/duration.h"
 #include "tools/errors.h"
 #include "tools/picture_metadata.h"
+#include "tools/planned_files.h"
 #include "tools/run_statistics.h"
 #include "tools/standard_output.h"
 
@@ -72,13 +74,11 @@ void choose_simd_target(const RenderRequest& request, const LoadedScene& loaded)
                     loaded.source, *loaded.simd_target, noise::simd_target()));
 }
 
-// Of several passes, while they are rendered: the sum, the pass in work and the one before it. One pass is not held
-// whole.
-constexpr double kBytesAPixelOfPasses = 24 + 13 + 13;
-
-void check_memory(const render::Window& window, const render::PassGoal& goal) {
+// One pass is not held whole.
+void check_memory(const render::Window& window, const render::PassGoal& goal, const scene::Scene& scene) {
     if (goal.passes == 1) return;
-    const double needed = kBytesAPixelOfPasses * window.width() * window.height();
+    const render::Estimator estimator(render::estimator_settings(scene));
+    const double needed = 1.0 * render::bytes_a_pixel_of_passes(estimator) * window.width() * window.height();
     const double present = static_cast<double>(render::available_memory_bytes());
     if (needed <= present) return;
     throw UsageError(
@@ -121,13 +121,6 @@ render::PassGoal choose_goal(const RenderRequest& request, const LoadedScene& lo
     return goal;
 }
 
-bool same_file(const fs::path& a, const fs::path& b) {
-    std::error_code error;
-    if (fs::equivalent(a, b, error)) return true;
-    const fs::path whole_a = fs::weakly_canonical(a, error);
-    return !error && whole_a == fs::weakly_canonical(b, error) && !error;
-}
-
 void check_output(const fs::path& path, const Job& job) {
     try {
         image::format_of(path);
@@ -136,11 +129,10 @@ void check_output(const fs::path& path, const Job& job) {
         throw UsageError(error.what());
     }
     if (image::stream_target(path)) return image::check_writable(path);
-    if (same_file(path, job.loaded.source) && !image::is_picture(path)) {
+    if (image::is_one_file(path, job.loaded.source) && !image::is_picture(path)) {
         throw UsageError(fmt::format("{}: this output is the scene file itself", path.string()));
     }
     image::check_writable(path);
-    image::check_writable(partial_path(path));
 }
 
 // Each file once, however often and by whatever name it was asked for.
@@ -152,7 +144,7 @@ std::vector<fs::path> output_paths(const RenderRequest& request, const Job& job)
     std::vector<fs::path> paths;
     for (const fs::path& path : asked) {
         check_output(path, job);
-        if (std::ranges::none_of(paths, [&](const fs::path& other) { return same_file(path, other); })) {
+        if (std::ranges::none_of(paths, [&](const fs::path& other) { return image::is_one_file(path, other); })) {
             paths.push_back(path);
         }
     }
@@ -173,8 +165,8 @@ void check_aov_paths(const Job& job) {
     for (const Aov aov : job.aovs) {
         const fs::path path = aov_path(job, aov);
         image::check_writable(path);
-        image::check_writable(partial_path(path));
-        if (std::ranges::any_of(job.outputs, [&](const fs::path& output) { return same_file(path, output); })) {
+        if (std::ranges::any_of(job.outputs,
+                                [&](const fs::path& output) { return image::is_one_file(path, output); })) {
             throw UsageError(
                 fmt::format("-o {}: allowed: another name, this is where --aov {} goes", path.string(), name_of(aov)));
         }
@@ -186,10 +178,41 @@ void check_statistics(const Job& job) {
     image::check_replaceable(job.statistics);
     const auto is_statistics = [&](const fs::path& path) {
         if (image::is_standard_output(path) && image::is_standard_output(job.statistics)) return true;
-        return same_file(path, job.statistics) || same_file(partial_path(path), job.statistics);
+        return image::is_one_file(path, job.statistics);
     };
     if (is_statistics(job.loaded.source) || std::ranges::any_of(job.outputs, is_statistics)) {
         throw UsageError(fmt::format("--stats {}: allowed: a file of its own", job.statistics.string()));
+    }
+}
+
+// All that is written, as it was asked for.
+std::vector<NamedOutput> named_outputs(const Job& job) {
+    std::vector<NamedOutput> outputs;
+    for (const fs::path& path : job.outputs) outputs.push_back({fmt::format("-o {}", path.string()), path});
+    for (const Aov aov : job.aovs) {
+        outputs.push_back({fmt::format("--aov {}", name_of(aov)), aov_path(job, aov)});
+    }
+    if (!job.statistics.empty())
+        outputs.push_back({fmt::format("--stats {}", job.statistics.string()), job.statistics});
+    return outputs;
+}
+
+// The folders of links may differ from that of the output.
+void check_partial_paths(const Job& job) {
+    for (const NamedOutput& output : named_outputs(job)) {
+        if (output.path == job.statistics || image::stream_target(output.path)) continue;
+        image::check_writable(partial_path(job, output.path));
+    }
+}
+
+// What a format does not hold, though the number of passes were the longest.
+void check_limits(const Job& job) {
+    for (const fs::path& path : job.outputs) {
+        try {
+            image::check_encodable(path, job.shape(), final_metadata(job, job.goal.passes, true), job.write);
+        } catch (const image::ImageError& error) {
+            throw UsageError(error.what());
+        }
     }
 }
 
@@ -197,13 +220,32 @@ void check_statistics(const Job& job) {
 
 fs::path aov_path(const Job& job, Aov aov) {
     const bool is_stream = image::stream_target(job.outputs.front()).has_value();
-    fs::path path = is_stream ? fs::path(job.loaded.name + ".png") : job.outputs.front();
-    return path.replace_extension(fmt::format(".{}.png", name_of(aov)));
+    const fs::path path = is_stream ? fs::path(job.loaded.name + ".png") : job.outputs.front();
+    return image::derived_path(path, fmt::format(".{}.png", name_of(aov)));
 }
 
-fs::path partial_path(fs::path path) {
-    const std::string extension = path.extension().string();
-    return path.replace_extension(".partial" + extension);
+fs::path partial_path(const Job& job, const fs::path& path) {
+    const std::vector<NamedOutput> outputs = named_outputs(job);
+    for (int i = 1;; ++i) {
+        const std::string count = i == 1 ? "" : fmt::format("-{}", i);
+        fs::path partial = image::derived_path(path, fmt::format(".partial{}{}", count, path.extension().string()));
+        const auto is_it = [&](const NamedOutput& output) { return image::is_one_file(output.path, partial); };
+        if (std::ranges::none_of(outputs, is_it)) return partial;
+    }
+}
+
+image::Metadata final_metadata(const Job& job, int passes, bool is_partial) {
+    image::Metadata metadata = job.metadata;
+    set_passes(metadata, job.loaded.scene.sampling, passes);
+    if (!is_partial) return metadata;
+    metadata.set("strata:partial", passes == 0 ? "unfinished pixels are black"
+                                               : fmt::format("the mean of {} whole passes; more were wanted", passes));
+    return metadata;
+}
+
+image::PictureShape Job::shape() const {
+    const scene::Film& frame = loaded.scene.film;
+    return {frame.width, frame.height, window.x0, window.y0, window.x1, window.y1};
 }
 
 Job prepare(const RenderRequest& request) {
@@ -221,14 +263,18 @@ Job prepare(const RenderRequest& request) {
     const bool is_tiled = request.tiled || job.loaded.is_tiled;
     job.write = {.exposure = job.loaded.scene.film.exposure,
                  .exr_format = parse_format(format),
-                 .exr_layout = is_tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic};
+                 .exr_layout = is_tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic,
+                 .frames_per_second = frame_rate(job.loaded.scene)};
+    if (!request.quiet) job.write.warn = warn_of_clipping;
     job.goal = choose_goal(request, job.loaded);
     choose_aovs(request, job);
-    check_memory(job.window, job.goal);
+    check_memory(job.window, job.goal, job.loaded.scene);
     job.outputs = output_paths(request, job);
     check_aov_paths(job);
     job.statistics = request.statistics;
     check_statistics(job);
+    refuse_shared(named_outputs(job));
+    check_partial_paths(job);
     for (const fs::path& path : job.outputs) keep_output_for(path);
     keep_output_for(job.statistics);
     job.metadata = picture_metadata(job.loaded.scene, job.window, job.tracer, format);
@@ -236,6 +282,7 @@ Job prepare(const RenderRequest& request) {
     std::string aovs;
     for (const Aov aov : job.aovs) aovs += fmt::format("{}{}", aovs.empty() ? "" : ",", name_of(aov));
     if (!aovs.empty()) job.metadata.set("strata:aov", aovs);
+    check_limits(job);
     return job;
 }
 

@@ -7,6 +7,7 @@
 
 #include "src/image/encode.h"
 #include "src/image/metadata.h"
+#include "src/image/picture.h"
 #include "src/render/film.h"
 #include "src/render/progressive.h"
 #include "tools/aov.h"
@@ -36,6 +37,8 @@ struct Job {
     render::PassGoal goal;
     int threads = 0, tile = 0;
     bool quiet = false;
+
+    image::PictureShape shape() const;
 };
 
 // Throws UsageError or SceneError for what cannot be asked for, ImageError for outputs that cannot be written.
@@ -44,7 +47,11 @@ Job prepare(const RenderRequest& request);
 // NAME.steps.png, named like the first output: the picture of an AOV to look at.
 std::filesystem::path aov_path(const Job& job, Aov aov);
 
-// NAME.partial.EXT beside NAME.EXT.
-std::filesystem::path partial_path(std::filesystem::path path);
+// Where what is finished of an output goes when the render is stopped: NAME.partial.EXT beside NAME.EXT, or
+// NAME.partial-2.EXT where that is an output itself.
+std::filesystem::path partial_path(const Job& job, const std::filesystem::path& path);
+
+// All that a picture of `passes` passes says of itself, one that was stopped if `is_partial`.
+image::Metadata final_metadata(const Job& job, int passes, bool is_partial);
 
 }  // namespace strata::tools

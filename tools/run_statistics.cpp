@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "noise/simd_target.h"
-#include "src/image/output_file.h"
 #include "src/render/progress_printer.h"
 
 namespace strata::tools {
@@ -61,10 +60,11 @@ std::string verdict(const PassStatistics& passes) {
 
 std::string passes_summary(const PassStatistics& passes) {
     std::string text = fmt::format("passes   {}", passes.passes);
-    if (passes.noise && std::isfinite(passes.noise->high)) {
-        text += fmt::format(", noise {:.3g} RMSE (95 % sure: below {:.3g})", passes.noise->rmse, passes.noise->high);
-    } else if (passes.noise) {
-        text += fmt::format(", noise about {:.3g} RMSE", passes.noise->rmse);
+    if (passes.error && std::isfinite(passes.error->high)) {
+        text += fmt::format(", sampling error {:.3g} RMSE (95 % sure: below {:.3g})", passes.error->rmse,
+                            passes.error->high);
+    } else if (passes.error) {
+        text += fmt::format(", sampling error about {:.3g} RMSE", passes.error->rmse);
     }
     const std::string said = verdict(passes);
     return text + (said.empty() ? "" : ", ") + said + "\n";
@@ -77,15 +77,16 @@ nlohmann::ordered_json number_or_null(double value, bool known = true) {
 }
 
 nlohmann::ordered_json passes_json(const PassStatistics& passes) {
-    const render::NoiseEstimate noise = passes.noise.value_or(render::NoiseEstimate{});
-    const bool known = passes.noise.has_value();
+    const render::ErrorEstimate error = passes.error.value_or(render::ErrorEstimate{});
+    const bool known = passes.error.has_value();
     nlohmann::ordered_json predicted = nullptr;
     if (passes.predicted_passes) predicted = *passes.predicted_passes;
     return {{"passes", passes.passes},
             {"stopped_by", end_name(passes.end)},
-            {"estimated_rmse", number_or_null(noise.rmse, known)},
-            {"estimated_rmse_low", number_or_null(noise.low, known)},
-            {"estimated_rmse_high", number_or_null(noise.high, known)},
+            {"estimated_rmse", number_or_null(error.rmse, known)},
+            {"estimated_rmse_low", number_or_null(error.low, known)},
+            {"estimated_rmse_high", number_or_null(error.high, known)},
+            {"estimated_bias", number_or_null(error.bias, known)},
             {"target_rmse", number_or_null(passes.goal.target_rmse, passes.goal.target_rmse > 0)},
             {"time_limit_s", number_or_null(passes.goal.time_limit_s, passes.goal.time_limit_s > 0)},
             {"predicted_passes", predicted},
@@ -158,7 +159,7 @@ RunStatistics collect(const render::ProgressiveResult& result, const render::Pas
     RunStatistics statistics = collect(result.render, scene);
     if (goal.passes > 1) {
         statistics.passes = PassStatistics{goal,         result.passes,           result.end,
-                                           result.noise, result.predicted_passes, result.predicted_seconds};
+                                           result.error, result.predicted_passes, result.predicted_seconds};
     }
     return statistics;
 }
@@ -194,7 +195,7 @@ std::string summary(const RunStatistics& statistics) {
     return text;
 }
 
-void write_statistics(const std::filesystem::path& path, const RunStatistics& statistics) {
+std::string statistics_json(const RunStatistics& statistics) {
     const integrate::Counters& c = statistics.counters;
     nlohmann::ordered_json json = {{"scene", statistics.scene},
                                    {"version", STRATA_VERSION},
@@ -214,8 +215,7 @@ void write_statistics(const std::filesystem::path& path, const RunStatistics& st
     if (!statistics.settings_mark.empty()) json["settings_mark"] = statistics.settings_mark;
     if (statistics.passes) json.update(passes_json(*statistics.passes));
     // A scene's file name need not be UTF-8.
-    const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-    image::replace_file(path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace strata::tools

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -16,7 +15,7 @@ struct PassStatistics {
     render::PassGoal goal;
     int passes = 0;
     render::PassesEnd end = render::PassesEnd::passes;
-    std::optional<render::NoiseEstimate> noise;
+    std::optional<render::ErrorEstimate> error;
     std::optional<int> predicted_passes;
     double predicted_seconds = 0;
 };
@@ -39,7 +38,7 @@ RunStatistics collect(const render::ProgressiveResult& result, const render::Pas
 // A few lines for people.
 std::string summary(const RunStatistics& statistics);
 
-// As JSON, written beside and renamed. Throws ImageError when that fails.
-void write_statistics(const std::filesystem::path& path, const RunStatistics& statistics);
+// The --stats file.
+std::string statistics_json(const RunStatistics& statistics);
 
 }  // namespace strata::tools

@@ -8,13 +8,13 @@
 
 #include "noise/simd_target.h"
 #include "src/image/image_error.h"
-#include "src/image/output_file.h"
 #include "src/render/status_line.h"
 #include "src/scene/key_text.h"
 #include "src/scene/suggest.h"
 #include "src/scene/typed_number.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
+#include "tools/planned_files.h"
 #include "tools/scene_argument.h"
 #include "tools/stability/report.h"
 #include "tools/stability/run.h"
@@ -59,7 +59,7 @@ std::uint64_t parse_seed(const std::string& text) {
 }
 
 // The files to write, their folder made and their writing tried, before any work.
-std::vector<Output> outputs_of(const StabilityRequest& request) {
+std::vector<Output> outputs_of(const StabilityRequest& request, PlannedFiles& files) {
     std::vector<Output> outputs;
     if (!request.folder.empty()) {
         const fs::path folder(request.folder);
@@ -71,7 +71,7 @@ std::vector<Output> outputs_of(const StabilityRequest& request) {
         outputs.push_back({folder / "stability.json", stability::json_table});
     }
     if (!request.json.empty()) outputs.push_back({request.json, stability::json_table});
-    for (const Output& output : outputs) image::check_replaceable(output.path);
+    for (const Output& output : outputs) files.plan(output.path);
     keep_output_for(request.json);
     return outputs;
 }
@@ -82,7 +82,8 @@ int stability_command(const StabilityRequest& request) {
     const stability::Settings settings{request.fast, parse_seed(request.seed), &cancel};
     const int threads = parse_integer("--threads", request.threads, 0, 1024);
     const std::vector<stability::Case> cases = stability::cases_of(parse_groups(request.groups));
-    const std::vector<Output> outputs = outputs_of(request);
+    PlannedFiles files;
+    const std::vector<Output> outputs = outputs_of(request, files);
     const stability::Heading heading{fmt::format("{}", fmt::join(noise::simd_targets(), ", ")), settings.seed,
                                      settings.fast};
     render::StatusLine line;
@@ -97,11 +98,10 @@ int stability_command(const StabilityRequest& request) {
         return kExitSignal + render::cancelling_signal();
     }
     for (const Output& output : outputs) {
-        const std::string text = output.text(rows, heading);
-        image::replace_file(output.path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
-        if (!request.quiet) print_out(fmt::format("wrote {}\n", output.path.string()));
+        const bool written = files.write(output.path, output.text(rows, heading));
+        if (written && !request.quiet) print_out(fmt::format("wrote {}\n", output.path.string()));
     }
-    return stability::failures(rows) > 0 ? kExitRuntime : 0;
+    return stability::failures(rows) > 0 || !files.all_written() ? kExitRuntime : 0;
 }
 
 }  // namespace

@@ -1,15 +1,18 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "src/image/compare.h"
-#include "src/image/write.h"
+#include "src/image/encode.h"
+#include "src/image/image_error.h"
 #include "src/render/cancel.h"
 #include "src/render/progress_printer.h"
 #include "tools/batch_progress.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
 #include "tools/picture_metadata.h"
+#include "tools/planned_files.h"
 #include "tools/render_picture.h"
 #include "tools/standard_output.h"
 #include "tools/strip/job.h"
@@ -21,20 +24,28 @@ namespace {
 
 constexpr const char* kTracer = "fast";
 
-void write_part(const StripJob& job, const StripSource& source, const std::filesystem::path& path) {
-    const image::WriteOptions options{.exposure = 0, .exr_format = image::ExrFormat::floating};
+void write_part(PlannedFiles& files, const StripJob& job, const StripSource& source,
+                const std::filesystem::path& path) {
+    image::WriteOptions options{.exposure = 0, .exr_format = image::ExrFormat::floating};
     image::Metadata metadata;
-    if (source.scene && source.file.empty())
+    if (source.scene && source.file.empty()) {
         metadata = picture_metadata(*source.scene, job.window, kTracer, "float");
-    else
+        options.frames_per_second = frame_rate(*source.scene);
+    } else {
         metadata.set("strata:part_of", source.name);
-    image::write_picture(path, source.picture, metadata, options);
+        options.keeps_not_finite = true;
+    }
+    files.write_made(path, [&] { return image::encode(path, source.picture, metadata, options); });
 }
 
 class StripRenderer {
   public:
-    StripRenderer(StripJob& job, const render::CancelToken& cancel)
-        : job_(job), cancel_(cancel), printer_(job.quiet), progress_(total_rays(job), printer_.callback()) {}
+    StripRenderer(StripJob& job, PlannedFiles& files, const render::CancelToken& cancel)
+        : job_(job),
+          files_(files),
+          cancel_(cancel),
+          printer_(job.quiet),
+          progress_(total_rays(job), printer_.callback()) {}
 
     // False when it was stopped.
     bool run() {
@@ -63,26 +74,52 @@ class StripRenderer {
             if (rendered.result.cancelled) return false;
             source.picture = std::move(rendered.picture);
         }
-        if (job_.parts) write_part(job_, source, part);
+        if (job_.parts) write_part(files_, job_, source, part);
         return true;
     }
 
     StripJob& job_;
+    PlannedFiles& files_;
     const render::CancelToken& cancel_;
     render::ProgressPrinter printer_;
     BatchProgress progress_;
 };
 
+// What the sheet's format does not hold, found on a sheet of black pictures before the first ray.
+void check_sheet(const StripJob& job) {
+    const auto is_rendered = [](const StripSource& source) { return source.file.empty(); };
+    if (std::ranges::none_of(job.columns, is_rendered) && !(job.reference && is_rendered(*job.reference))) return;
+    StripJob black = job;
+    const render::Window& w = job.window;
+    for (StripSource& column : black.columns) {
+        if (column.file.empty()) column.picture = image::make_picture(w.width(), w.height());
+    }
+    if (black.reference && black.reference->file.empty())
+        black.reference->picture = image::make_picture(w.width(), w.height());
+    try {
+        const image::Canvas sheet = draw_strip(black);
+        image::check_encodable(job.output, {sheet.width, sheet.height, 0, 0, sheet.width, sheet.height},
+                               strip_metadata(job), {});
+    } catch (const image::ImageError& error) {
+        throw UsageError(error.what());
+    }
+}
+
 int strip_command(const StripRequest& request) {
     static render::CancelToken cancel;
     render::cancel_on_signals(cancel);
     StripJob job = prepare_strip(request);
-    if (!StripRenderer(job, cancel).run()) {
+    check_sheet(job);
+    PlannedFiles files;
+    for (const std::filesystem::path& path : strip_files(job)) files.plan(path);
+    if (!StripRenderer(job, files, cancel).run()) {
         if (!job.quiet) print_out("stopped  before the strip was complete; parts that were finished are kept\n");
         return kExitSignal + render::cancelling_signal();
     }
-    image::write_canvas(job.output, draw_strip(job), strip_metadata(job));
-    if (!job.quiet) print_out(fmt::format("wrote    {}\n", job.output.string()));
+    const bool is_drawn = files.write_made(
+        job.output, [&] { return image::encode_canvas(job.output, draw_strip(job), strip_metadata(job)); });
+    if (is_drawn && !job.quiet) print_out(fmt::format("wrote    {}\n", job.output.string()));
+    if (!files.all_written()) return kExitRuntime;
     return render::cancelling_signal() != 0 ? kExitSignal + render::cancelling_signal() : 0;
 }
 
@@ -134,8 +171,13 @@ void add_strip_command(Command& program, int& exit_code) {
     command->add_flag("--quiet", request->quiet, "No progress or summary");
     command->footer(
         "With --scene only the crop is rendered. Pictures are shown with the scene's exposure, or that of the first\n"
-        "picture. Errors are of linear radiance, over all channels. PNG, TIFF and JPEG hold sRGB codes, which are\n"
-        "decoded and their exposure undone; what they clipped stays clipped.\n"
+        "picture. Errors are of linear radiance, over all channels. EXR, and TIFF in floating point, are linear. "
+        "Whole\n"
+        "numbers are sRGB codes unless the file says otherwise (gAMA, cICP, an ICC profile): they are decoded and "
+        "their\n"
+        "exposure undone; what they clipped stays clipped. Grey is shown as grey, alpha over black, and pixels that "
+        "are\n"
+        "not finite in cyan, with a warning.\n"
         "  strata strip a.exr b.exr --crop 100,60,140,90 --zoom 8 -o strip.png\n"
         "  strata strip --scene terrain --columns \"none; N=2; N=10\" --crop 600,330,640,360 --reference N=10 --rmse\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, scene or picture, 129, 130 or 143 "

@@ -65,7 +65,9 @@ int sweep_command(const SweepRequest& request) {
     render::cancel_on_signals(cancel);
     const SweepJob job = prepare_sweep(request);
     SweepLedger ledger = ledger_of(job);
-    const SweepOutcome outcome = render_sweep(job, ledger, cancel);
+    PlannedFiles files;
+    for (const char* file : {kSheetFile, kCsvFile}) files.plan(job.folder / file);
+    const SweepOutcome outcome = render_sweep(files, job, ledger, cancel);
     if (outcome.unresolved_rays > 0 && !job.quiet)
         print_error(
             fmt::format("warning: {} rays were not settled; drawn in magenta, or as shadow", outcome.unresolved_rays));
@@ -75,11 +77,17 @@ int sweep_command(const SweepRequest& request) {
                                   outcome.kept + outcome.rendered, job.cells.size() + 2 * job.references.size()));
         return kExitSignal + render::cancelling_signal();
     }
-    const SweepResults results = evaluate_sweep(job);
-    write_tables(job, ledger, results);
+    if (outcome.failed > 0) {
+        print_error(fmt::format("{} of {} pictures are there; the same command goes on from there",
+                                outcome.kept + outcome.rendered, job.cells.size() + 2 * job.references.size()));
+        return kExitRuntime;
+    }
+    const SweepResults results = evaluate_sweep(files, job);
+    write_tables(files, job, ledger, results);
     const std::filesystem::path sheet = job.folder / kSheetFile;
-    write_if_changed(sheet, image::encode_canvas(sheet, draw_sheet(job, results), sheet_metadata(job)));
-    if (!job.quiet) report(job, results);
+    write_if_changed(files, sheet, image::encode_canvas(sheet, draw_sheet(job, results), sheet_metadata(job)));
+    if (!job.quiet && files.all_written()) report(job, results);
+    if (!files.all_written()) return kExitRuntime;
     return render::cancelling_signal() != 0 ? kExitSignal + render::cancelling_signal() : 0;
 }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "src/image/file_paths.h"
 #include "src/image/scratch_files.h"
 
 namespace strata::tools {
@@ -14,8 +15,7 @@ namespace strata::tools {
 namespace fs = std::filesystem;
 
 TemporaryFolder::TemporaryFolder(const std::string& name) {
-    const char* const chosen = std::getenv("TMPDIR");
-    const fs::path parent = chosen != nullptr && *chosen != '\0' ? chosen : "/tmp";
+    const fs::path parent = image::temporary_place();
     // Other programs get the path, and may run elsewhere.
     std::string pattern = (fs::absolute(parent) / ("strata-" + name + "-XXXXXX")).string();
     if (::mkdtemp(pattern.data()) == nullptr) {

@@ -13,7 +13,8 @@ std::optional<std::string> read_text_file(const std::filesystem::path& path, std
     std::ostringstream text;
     // A folder opens, but does not read; an empty file has nothing to insert, which is no failure to read.
     if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
-    if (file.is_open() && !file.bad()) return text.str();
+    // What fails while a part is taken over is an error of `text`.
+    if (file.is_open() && !file.bad() && !text.fail()) return text.str();
     why = std::generic_category().message(errno != 0 ? errno : EIO);
     return std::nullopt;
 }

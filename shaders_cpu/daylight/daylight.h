@@ -1,13 +1,24 @@
 // Daylight: sun, sky, twilight and the air between, of one clear atmosphere around the Earth.
 //
-// All is computed when a Daylight is made, in about 0.2 s, from the arguments alone: equal arguments give equal bits on
-// any thread. Then it is only read, by any number of threads.
+// All is computed when a Daylight is made, in about 0.16 s, from the arguments alone: equal arguments give equal bits
+// on any thread. Then it is only read, by any number of threads.
 //
 // Units and axes. Metres; y up; unit directions, away from the observer. Colours are linear Rec.709 whose luminance
 // 0.2126 R + 0.7152 G + 0.0722 B is in cd/m^2 for radiance and in lux for irradiance: a surface of reflectance rho
 // shows rho * irradiance / pi. White is D65, so a high sun is a little warm and a shadow under open sky is blue. Of the
 // sun come up to 130 000 lux, and of a clear sky some 10 000 beside it; twilight at -6 degrees is 1e5 times darker, so
 // an exposure belongs to the scene.
+//
+//   const Daylight day(Atmosphere{.visibility = 150e3}, sun_direction, eye_height);        // once a picture
+//   radiance = albedo / pi * (day.sun_illuminance(height) * n_dot_sun * visible            // a surface
+//                             + day.sky_irradiance(normal) + day.ground_irradiance(normal));
+//   const AerialPerspective air = day.aerial_from_observer(direction, distance);           // seen from the eye
+//   pixel = air.transmittance * radiance + air.inscatter;
+//   pixel = day.sky_radiance(direction);                                                   // or nothing hit
+//
+// How right it is, by day: light scattered once within 0.2 % (rms) and twice within 1 % of brute force, colours
+// within 0.005 in (u',v') of the whole spectrum, all orders together within 2 % of light paths in clear air (visibility
+// 200 km) and some 10 % at 60 km, where the red of the last degree above the horizon comes out up to a half too bright.
 //
 // Left out: refraction (a sun on the horizon stands half a degree too low, the horizon a third of a degree), clouds,
 // polarisation, the moon and stars. Below about 8 degrees under the horizon the twilight is guesswork.

@@ -169,17 +169,6 @@ double bspline_pdf(int m, double x) {
     return values.front() / factorial(m - 1);
 }
 
-double bspline_pdf_derivative(int m, double x) {
-    assert(m >= kMinOrder && m <= kMaxOrder);
-    if (std::isnan(x)) return x;
-    if (m == 1 || !(x >= 0 && x < m)) return 0;
-    const bool lower = x <= 0.5 * m;
-    ShiftedValues values(lower ? x : m - x);
-    values.raise(1, m - 1);
-    const double derivative = values.difference() / factorial(m - 2);
-    return lower ? derivative : -derivative;
-}
-
 double bspline_cdf(int m, double x) {
     assert(m >= kMinOrder && m <= kMaxOrder);
     if (std::isnan(x)) return x;

@@ -16,9 +16,6 @@ inline constexpr int kMaxOrder = 100;
 // n_m(x). Zero outside [0,m); n_1 is 1 on [0,1). Relative error <= 16 eps where the result is a normal number.
 double bspline_pdf(int m, double x);
 
-// n_m'(x), right-continuous (m = 1: zero everywhere). Absolute error <= 16 eps.
-double bspline_pdf_derivative(int m, double x);
-
 // N_m(x), the integral of n_m from 0 to x. Relative error <= 16 eps where the result is a normal number.
 double bspline_cdf(int m, double x);
 

@@ -7,10 +7,12 @@
 #include <cmath>
 
 #include "src/image/canvas_buffer.h"
+#include "src/image/dither.h"
 #include "src/image/encode.h"
 #include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/library.h"
+#include "src/image/not_finite.h"
 #include "src/image/output_file.h"
 #include "src/image/srgb.h"
 
@@ -61,17 +63,21 @@ Canvas make_canvas(int width, int height, const Colour& colour) {
 
 Canvas to_canvas(const Picture& linear, double exposure) {
     const double scale = std::exp2(std::clamp(exposure, -1000.0, 1000.0));
-    Canvas canvas{linear.width(), linear.height(), {}};
-    canvas.rgb.reserve(linear.rgb.size());
-    for (const float value : linear.rgb) {
-        if (!std::isfinite(value)) throw ImageError("cannot show a picture with pixels that are not finite");
-        // Rounded to 8 bits here, from the double: a float between two codes could fall to the other side later.
-        canvas.rgb.push_back(static_cast<float>(std::lround(encode_srgb(value * scale) * 255.0)) * kCode);
+    Canvas canvas = blank(linear.width(), linear.height());
+    const std::array<float, 3> not_finite = values_of(kNotFiniteColour);
+    for (std::size_t i = 0; i < linear.pixels(); ++i) {
+        const auto width = static_cast<std::size_t>(linear.width());
+        const int x = linear.x0 + static_cast<int>(i % width), y = linear.y0 + static_cast<int>(i / width);
+        const bool is_shown = is_finite_pixel(linear, i);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double light = is_shown ? linear.rgb[3 * i + c] * scale : 0.0;
+            // Codes already here, from the double: a float between two codes could fall to the other side later.
+            const int code = dithered_code(encode_srgb(light), x, y);
+            canvas.rgb[3 * i + c] = is_shown ? static_cast<float>(code) * kCode : not_finite[c];
+        }
     }
     return canvas;
 }
-
-Canvas codes_to_canvas(const Picture& codes) { return {codes.width(), codes.height(), codes.rgb}; }
 
 Canvas crop(const Canvas& canvas, const Box& box) {
     if (is_empty(box) || intersection(box, canvas.box()) != box) {
@@ -115,12 +121,6 @@ void outline(Canvas& canvas, const Box& box, const Colour& colour, int thickness
     fill(canvas, {around.x0, box.y1, around.x1, around.y1}, colour);
     fill(canvas, {around.x0, box.y0, box.x0, box.y1}, colour);
     fill(canvas, {box.x1, box.y0, around.x1, box.y1}, colour);
-}
-
-void draw_line(Canvas& canvas, int x0, int y0, int x1, int y1, const Colour& colour) {
-    ImageBuf target = buffer_of(canvas);
-    require_drawn(ImageBufAlgo::render_line(target, x0, y0, x1, y1, values_of(colour), false, roi_of(canvas.box())),
-                  target);
 }
 
 void check_canvas_format(const std::filesystem::path& path) {

@@ -36,12 +36,12 @@ struct Canvas {
 // All drawing keeps to the canvas: what lies outside is left out. Sizes are at least 1.
 Canvas make_canvas(int width, int height, const Colour& colour);
 
-// The crop of a picture of linear radiance, as a PNG with this exposure (stops, finite) would show it, code for code.
-// Throws ImageError when the picture has pixels that are not finite.
-Canvas to_canvas(const Picture& linear, double exposure);
+// Of a pixel that is not finite, which only pictures of other programs have.
+inline constexpr Colour kNotFiniteColour{0.0f, 1.0f, 1.0f};
 
-// The crop of a picture whose values are sRGB codes already, as read_picture() gives for PNG, TIFF and JPEG.
-Canvas codes_to_canvas(const Picture& codes);
+// The crop of a picture of linear radiance, as a PNG with this exposure (stops, finite) would show it, code for code;
+// pixels that are not finite in kNotFiniteColour.
+Canvas to_canvas(const Picture& linear, double exposure);
 
 // Throws ImageError, naming both, when the box is empty or not inside the canvas.
 Canvas crop(const Canvas& canvas, const Box& box);
@@ -58,9 +58,6 @@ void fill(Canvas& canvas, const Box& box, const Colour& colour);
 
 // A frame whose lines, `thickness` pixels wide, lie just outside of the box: nothing in it is covered.
 void outline(Canvas& canvas, const Box& box, const Colour& colour, int thickness = 1);
-
-// One pixel wide, both ends included.
-void draw_line(Canvas& canvas, int x0, int y0, int x1, int y1, const Colour& colour);
 
 // A file's bytes: PNG, JPEG or TIFF by extension, codes as they are, rounded to the format's; the same for equal
 // arguments. Throws ImageError, as encode() does, and for EXR, which holds light.

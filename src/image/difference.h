@@ -9,12 +9,10 @@
 
 namespace strata::image {
 
-// Drawn where a value is not finite in either picture: a colour that the scale does not have.
-inline constexpr Colour kNotFiniteColour{0.0f, 1.0f, 1.0f};
-
 // Each pixel's distance, sqrt of the mean square of its three channels' differences in linear radiance, from black (0)
 // to pale yellow (top > 0 and beyond). Colours follow the distance's square root, so that a hundredth of the top still
-// shows. Throws ImageError unless the sizes are equal.
+// shows. Where either picture is not finite: kNotFiniteColour, which the scale does not have. Throws ImageError unless
+// the sizes are equal.
 Canvas difference(const Picture& picture, const Picture& reference, double top);
 
 // A top of 1, 2 or 5 times a power of ten, the least from `value` up: 0.037 -> 0.05. 1 for what is no positive number.

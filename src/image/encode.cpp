@@ -33,6 +33,7 @@ std::vector<unsigned char> encode_with(const std::filesystem::path& path, const 
     }
     encoder.finish();
     put_digest(format_of(path), bytes);
+    tell_clipping(path, encoder, options);
     return bytes;
 }
 

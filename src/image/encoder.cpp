@@ -7,22 +7,18 @@
 #include <cstdint>
 #include <limits>
 
-#include "src/image/digest.h"
+#include "src/image/dither.h"
 #include "src/image/image_error.h"
 #include "src/image/library.h"
+#include "src/image/library_noise.h"
+#include "src/image/picture_spec.h"
+#include "src/image/png_text.h"
 #include "src/image/srgb.h"
 
 namespace strata::image {
 namespace {
 
 constexpr float kMaxHalf = 65504.0f;
-
-// A TIFF description is read back up to 65,536 bytes, a JPEG segment holds 65,533 with its own header inside: room
-// for the digest beside what is given.
-constexpr std::size_t kMaxDescription = 60'000;
-
-constexpr int kTileSide = 64;
-static_assert(kStripRows % kTileSide == 0 && kStripRows % 16 == 0, "a strip holds whole tiles, and whole zip blocks");
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
     throw ImageError(fmt::format("cannot write \"{}\": {}", path.string(), reason));
@@ -37,15 +33,30 @@ void check_shape(const std::filesystem::path& path, const PictureShape& p) {
     check_size(path, p.width(), p.height());
 }
 
-// The nearest code of [0, max(Code)] after exposure and sRGB.
-template <class Code>
-std::vector<Code> quantise(std::span<const float> linear, double exposure) {
-    constexpr double kTop = std::numeric_limits<Code>::max();
-    // Beyond these limits every code is already 0 or the largest; within them no product is 0 * inf.
-    const double scale = std::exp2(std::clamp(exposure, -1000.0, 1000.0));
-    std::vector<Code> codes;
+// Beyond these limits every code is already 0 or the largest; within them no product is 0 * inf.
+double scale_of(double exposure) { return std::exp2(std::clamp(exposure, -1000.0, 1000.0)); }
+
+// The nearest code of 16 bits after exposure and sRGB.
+std::vector<std::uint16_t> quantise(std::span<const float> linear, double exposure) {
+    constexpr double kTop = std::numeric_limits<std::uint16_t>::max();
+    const double scale = scale_of(exposure);
+    std::vector<std::uint16_t> codes;
     codes.reserve(linear.size());
-    for (const float value : linear) codes.push_back(static_cast<Code>(std::lround(encode_srgb(value * scale) * kTop)));
+    for (const float value : linear)
+        codes.push_back(static_cast<std::uint16_t>(std::lround(encode_srgb(value * scale) * kTop)));
+    return codes;
+}
+
+// Codes of 8 bits, dithered by the pixels' places in the frame: rows of `width` pixels, the first at (x0,y0).
+std::vector<std::uint8_t> dither(std::span<const float> linear, double exposure, int x0, int y0, int width) {
+    const double scale = scale_of(exposure);
+    std::vector<std::uint8_t> codes;
+    codes.reserve(linear.size());
+    const std::size_t row = 3 * static_cast<std::size_t>(width);
+    for (std::size_t i = 0; i < linear.size(); ++i) {
+        const int x = x0 + static_cast<int>(i % row / 3), y = y0 + static_cast<int>(i / row);
+        codes.push_back(static_cast<std::uint8_t>(dithered_code(encode_srgb(linear[i] * scale), x, y)));
+    }
     return codes;
 }
 
@@ -65,90 +76,28 @@ std::vector<Code> round_codes(std::span<const float> values) {
     return codes;
 }
 
-OIIO::TypeDesc pixel_type(Format format, ExrFormat exr_format) {
-    if (format == Format::exr) return exr_format == ExrFormat::half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
-    return format == Format::tiff ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
-}
-
-void set_windows(OIIO::ImageSpec& spec, const PictureShape& shape) {
-    spec.x = shape.x0;
-    spec.y = shape.y0;
-    spec.full_width = shape.frame_width;
-    spec.full_height = shape.frame_height;
-}
-
-// With room for the digest, first of all: what users typed comes after it.
-Metadata with_blank_digest(const Metadata& metadata) {
-    Metadata result;
-    result.set(kDigestKey, blank_digest());
-    for (const auto& [name, value] : metadata.entries())
-        if (name != kDigestKey) result.set(name, value);
-    return result;
-}
-
-void set_metadata(OIIO::ImageSpec& spec, const std::filesystem::path& path, Format format, const Metadata& metadata) {
-    const Metadata with_digest = with_blank_digest(metadata);
-    if (format == Format::exr || format == Format::png) {
-        for (const auto& [name, value] : with_digest.entries()) spec.attribute(name, value);
-        return;
-    }
-    const std::size_t size = pack(metadata).size();
-    if (size > kMaxDescription)
-        fail(path, fmt::format("{} bytes of metadata do not fit, at most {} do; .exr and .png hold more", size,
-                               kMaxDescription));
-    spec.attribute("ImageDescription", pack(with_digest));
-}
-
-bool is_tiled(const PictureShape& shape, ExrLayout layout) {
-    if (layout != ExrLayout::automatic) return layout == ExrLayout::tiles;
-    return std::max(shape.width(), shape.height()) >= kTiledFrom;
-}
-
-void add_channels(OIIO::ImageSpec& spec, const std::vector<std::string>& names) {
-    spec.channelformats.assign(3, spec.format);
-    for (const std::string& name : names) {
-        ++spec.nchannels;
-        spec.channelnames.push_back(name);
-        spec.channelformats.push_back(OIIO::TypeDesc::FLOAT);
-    }
-}
-
-OIIO::ImageSpec make_spec(const std::filesystem::path& path, Format format, const PictureShape& shape,
-                          const Metadata& metadata, const WriteOptions& options) {
-    OIIO::ImageSpec spec(shape.width(), shape.height(), 3, pixel_type(format, options.exr_format));
-    const bool linear = format == Format::exr;
-    // An EXR gives them back sorted; rows are copied as they come.
-    if (!std::ranges::is_sorted(options.exr_extra)) fail(path, "channels that are not sorted");
-    if (linear && !options.exr_extra.empty()) add_channels(spec, options.exr_extra);
-    const bool windows = linear || format == Format::tiff;
-    if (windows) set_windows(spec, shape);
-    if (windows) spec.attribute("compression", "zip");
-    if (linear && is_tiled(shape, options.exr_layout)) spec.tile_width = spec.tile_height = kTileSide;
-    if (format == Format::jpeg) {
-        spec.attribute("compression", "jpeg:95");
-        spec.attribute("jpeg:subsampling", "4:4:4");
-    }
-    // In a TIFF this would become an Exif directory, which OpenImageIO 2.4 writes over the picture's own.
-    if (format != Format::tiff) spec.attribute("oiio:ColorSpace", linear ? "Linear" : "sRGB");
-    // OpenImageIO dates EXR and TIFF files unless there is a DateTime; one that is no text is not written.
-    if (windows) spec.attribute("DateTime", 0);
-    set_metadata(spec, path, format, metadata);
-    return spec;
-}
-
 }  // namespace
+
+void check_encodable(const std::filesystem::path& path, const PictureShape& shape, const Metadata& metadata,
+                     const WriteOptions& options) {
+    check_shape(path, shape);
+    if (!std::isfinite(options.exposure)) fail(path, fmt::format("an exposure of {} stops", options.exposure));
+    make_spec(path, format_of(path), shape, metadata, options);
+}
 
 Encoder::Encoder(const std::filesystem::path& path, const PictureShape& shape, const Metadata& metadata,
                  const WriteOptions& options, OIIO::Filesystem::IOProxy& bytes)
     : path_(path), format_(format_of(path)), shape_(shape), options_(options) {
-    check_shape(path, shape);
-    if (!std::isfinite(options.exposure)) fail(path, fmt::format("an exposure of {} stops", options.exposure));
+    check_encodable(path, shape, metadata, options);
     configure_library();
     const OIIO::ImageSpec spec = make_spec(path, format_, shape, metadata, options);
+    if (format_ == Format::png) with_text_ = add_utf8_text(bytes, metadata);
     output_ = OIIO::ImageOutput::create(name_of(format_));
     if (!output_) fail(path, OIIO::geterror());
-    if (!output_->set_ioproxy(&bytes)) fail(path, "OpenImageIO cannot encode this format here");
-    if (!output_->open(name_of(format_), spec)) fail(path, output_->geterror());
+    if (!output_->set_ioproxy(with_text_ ? with_text_.get() : &bytes))
+        fail(path, "OpenImageIO cannot encode this format here");
+    const LibraryNoise noise;
+    if (!output_->open(name_of(format_), spec)) fail(path, noise.explain(output_->geterror()));
 }
 
 int Encoder::rows_of(std::size_t values) const {
@@ -159,14 +108,26 @@ int Encoder::rows_of(std::size_t values) const {
     return rows;
 }
 
-void Encoder::count_not_finite(std::span<const float> rgb) {
+// A pixel of the rows in work, the one whose first value is `i`: "(12,6) = (nan, 0, 0)".
+std::string Encoder::describe(std::span<const float> rgb, std::size_t i) const {
     const auto width = static_cast<std::size_t>(shape_.width());
+    return fmt::format("({},{}) = ({}, {}, {})", static_cast<std::size_t>(shape_.x0) + i / 3 % width,
+                       static_cast<std::size_t>(shape_.y0 + next_row_) + i / 3 / width, rgb[i], rgb[i + 1], rgb[i + 2]);
+}
+
+void Encoder::count_not_finite(std::span<const float> rgb) {
+    if (options_.keeps_not_finite && format_ == Format::exr && options_.exr_format == ExrFormat::floating) return;
     for (std::size_t i = 0; i < rgb.size(); i += 3) {
         if (std::isfinite(rgb[i]) && std::isfinite(rgb[i + 1]) && std::isfinite(rgb[i + 2])) continue;
-        if (not_finite_++ > 0) continue;
-        first_not_finite_ = fmt::format("({},{}) = ({}, {}, {})", static_cast<std::size_t>(shape_.x0) + i / 3 % width,
-                                        static_cast<std::size_t>(shape_.y0 + next_row_) + i / 3 / width, rgb[i],
-                                        rgb[i + 1], rgb[i + 2]);
+        if (not_finite_++ == 0) first_not_finite_ = describe(rgb, i);
+    }
+}
+
+void Encoder::count_clipped(std::span<const float> rgb) {
+    const auto is_beyond = [](float value) { return std::fabs(value) > kMaxHalf; };
+    for (std::size_t i = 0; i < rgb.size(); i += 3) {
+        if (std::ranges::none_of(rgb.subspan(i, 3), is_beyond)) continue;
+        if (clipped_++ == 0) first_clipped_ = describe(rgb, i);
     }
 }
 
@@ -183,6 +144,7 @@ void Encoder::write(OIIO::TypeDesc type, const void* values, int rows) {
 void Encoder::write_linear(std::span<const float> rgb, std::span<const float> extra) {
     const int rows = rows_of(rgb.size());
     count_not_finite(rgb);
+    const int y = shape_.y0 + next_row_;
     if (not_finite_ > 0) {
         // The file will not be kept, but must become whole; NaN has no code.
         const std::vector<float> black(rgb.size() / 3 * channels(), 0.0f);
@@ -192,17 +154,21 @@ void Encoder::write_linear(std::span<const float> rgb, std::span<const float> ex
         case Format::exr:
             return write_exr(rgb, extra, rows);
         case Format::tiff:
-            return write(OIIO::TypeDesc::UINT16, quantise<std::uint16_t>(rgb, options_.exposure).data(), rows);
+            return write(OIIO::TypeDesc::UINT16, quantise(rgb, options_.exposure).data(), rows);
         case Format::png:
         case Format::jpeg:
             break;
     }
-    write(OIIO::TypeDesc::UINT8, quantise<std::uint8_t>(rgb, options_.exposure).data(), rows);
+    const std::vector<std::uint8_t> codes = dither(rgb, options_.exposure, shape_.x0, y, shape_.width());
+    write(OIIO::TypeDesc::UINT8, codes.data(), rows);
 }
 
 void Encoder::write_exr(std::span<const float> rgb, std::span<const float> extra, int rows) {
     std::vector<float> clamped;
-    if (options_.exr_format == ExrFormat::half) rgb = clamped = clamp_to_half(rgb);
+    if (options_.exr_format == ExrFormat::half) {
+        count_clipped(rgb);
+        rgb = clamped = clamp_to_half(rgb);
+    }
     const std::size_t extra_channels = channels() - 3;
     if (extra_channels == 0) return write(OIIO::TypeDesc::FLOAT, rgb.data(), rows);
     if (extra.size() != rgb.size() / 3 * extra_channels)
@@ -256,10 +222,22 @@ void Encoder::write_rows_left() {
 }
 
 void Encoder::finish() {
-    if (!output_->close()) fail(path_, output_->geterror());
+    const LibraryNoise noise;
+    if (!output_->close()) fail(path_, noise.explain(output_->geterror()));
     if (not_finite_ == 0) return;
     fail(path_, fmt::format("{} pixel{} not finite, first {}", not_finite_, not_finite_ == 1 ? " is" : "s are",
                             first_not_finite_));
+}
+
+std::string Encoder::clipping() const {
+    if (clipped_ == 0) return "";
+    return fmt::format("{} pixel{} beyond {}, the largest half, {} clipped to it, first {}", clipped_,
+                       clipped_ == 1 ? "" : "s", kMaxHalf, clipped_ == 1 ? "is" : "are", first_clipped_);
+}
+
+void tell_clipping(const std::filesystem::path& path, const Encoder& encoder, const WriteOptions& options) {
+    const std::string clipping = encoder.clipping();
+    if (options.warn && !clipping.empty()) options.warn(fmt::format("\"{}\": {}", path.string(), clipping));
 }
 
 }  // namespace strata::image

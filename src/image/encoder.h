@@ -39,21 +39,32 @@ class Encoder {
     // but for its digest (digest.h), which its owner puts in.
     void finish();
 
+    // Of radiance beyond the largest half: "3 pixels beyond 65504 ..."; empty if there was none.
+    std::string clipping() const;
+
   private:
     void write(OIIO::TypeDesc type, const void* values, int rows);
     int rows_of(std::size_t values) const;
     std::size_t channels() const { return static_cast<std::size_t>(output_->spec().nchannels); }
     void write_exr(std::span<const float> rgb, std::span<const float> extra, int rows);
     void count_not_finite(std::span<const float> rgb);
+    void count_clipped(std::span<const float> rgb);
+    std::string describe(std::span<const float> rgb, std::size_t i) const;
 
     std::filesystem::path path_;
     Format format_;
     PictureShape shape_;
     WriteOptions options_;
+    std::unique_ptr<OIIO::Filesystem::IOProxy> with_text_;  // of a PNG, where it is needed; outlives its output
     std::unique_ptr<OIIO::ImageOutput> output_;
     int next_row_ = 0;  // from the crop's top
     std::size_t not_finite_ = 0;
     std::string first_not_finite_;
+    std::size_t clipped_ = 0;
+    std::string first_clipped_;
 };
+
+// To whoever wants to be warned, of a file that is whole.
+void tell_clipping(const std::filesystem::path& path, const Encoder& encoder, const WriteOptions& options);
 
 }  // namespace strata::image

@@ -1,18 +1,15 @@
 #include "src/image/output_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <string>
 #include <system_error>
 
+#include "src/image/file_paths.h"
 #include "src/image/format.h"
 #include "src/image/image_error.h"
-#include "src/image/scratch_files.h"
 
 namespace strata::image {
 namespace fs = std::filesystem;
@@ -23,16 +20,6 @@ namespace {
 }
 
 std::string system_reason(int error) { return std::generic_category().message(error); }
-
-fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
-
-// Where the bytes go: the end of a chain of symbolic links whose target exists, otherwise `path` itself.
-fs::path resolve_links(const fs::path& path) {
-    std::error_code error;
-    if (!fs::is_symlink(path, error)) return path;
-    const fs::path target = fs::canonical(path, error);
-    return error ? path : target;
-}
 
 void check_target(const fs::path& path) {
     std::error_code error;
@@ -50,7 +37,7 @@ void check_stream(const fs::path& path, const StreamTarget& stream, bool is_pict
 }
 
 void check_folder(const fs::path& path) {
-    const fs::path folder = folder_of(path);
+    const fs::path folder = folder_of(end_of_links(path));
     std::error_code error;
     const fs::file_status status = fs::status(folder, error);
     if (status.type() == fs::file_type::not_found)
@@ -61,33 +48,28 @@ void check_folder(const fs::path& path) {
 
 }  // namespace
 
-OutputFile::OutputFile(const fs::path& target) : target_(resolve_links(target)), stream_(stream_target(target)) {
-    if (stream_) {
-        target_ = target;
-        descriptor_ = open_memory_file();
-        if (descriptor_ < 0) fail(target_, system_reason(errno));
-        hidden_ = fmt::format("/proc/self/fd/{}", descriptor_);
+OutputFile::OutputFile(const fs::path& target) : target_(target), stream_(stream_target(target)) {
+    if (!stream_) {
+        scratch_.emplace(target);
         return;
     }
-    static std::atomic<unsigned> counter{0};
-    do {
-        // Short, so that it fits wherever the target does; hidden, so that a glob for pictures does not meet it.
-        hidden_ = folder_of(target_) / fmt::format(".strata-{}-{}", ::getpid(), counter++);
-        descriptor_ = ::open(hidden_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    } while (descriptor_ < 0 && (errno == EEXIST || errno == EINTR));
-    if (descriptor_ < 0) fail(target_, fmt::format("no new file in its folder: {}", system_reason(errno)));
-    remember_scratch_file(hidden_.c_str());
+    memory_ = open_memory_file();
+    if (memory_ < 0) fail(target_, system_reason(errno));
 }
 
 OutputFile::~OutputFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (!is_in_place_ && !stream_) ::unlink(hidden_.c_str());
-    forget_scratch_file(hidden_.c_str());
+    if (memory_ >= 0) ::close(memory_);
+}
+
+fs::path OutputFile::hidden_path() const {
+    fs::path path = fmt::format("/proc/self/fd/{}", descriptor());
+    std::error_code error;
+    return scratch_ && !fs::exists(path, error) ? scratch_->path() : path;
 }
 
 void OutputFile::write_at(std::int64_t offset, std::span<const unsigned char> bytes) {
     while (!bytes.empty()) {
-        const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), offset);
+        const ssize_t written = ::pwrite(descriptor(), bytes.data(), bytes.size(), offset);
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) fail(target_, system_reason(errno));
         bytes = bytes.subspan(static_cast<std::size_t>(written));
@@ -95,20 +77,32 @@ void OutputFile::write_at(std::int64_t offset, std::span<const unsigned char> by
     }
 }
 
+std::size_t OutputFile::read_at(std::int64_t offset, std::span<unsigned char> bytes) const {
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+        const ssize_t count = ::pread(descriptor(), bytes.data() + done, bytes.size() - done, offset);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail(target_, fmt::format("what was written cannot be read: {}", system_reason(errno)));
+        if (count == 0) break;
+        done += static_cast<std::size_t>(count);
+        offset += count;
+    }
+    return done;
+}
+
 void OutputFile::put_into_stream() {
-    const int error = copy_to_stream(descriptor_, *stream_);
+    const int error = copy_to_stream(memory_, *stream_);
     if (error != 0) fail(target_, system_reason(error));
-    is_in_place_ = true;
 }
 
 void OutputFile::put_in_place() {
     if (stream_) return put_into_stream();
-    const int closed = ::close(descriptor_);
-    descriptor_ = -1;
-    // Some file systems report a full disk only here.
-    if (closed != 0) fail(target_, system_reason(errno));
-    if (::rename(hidden_.c_str(), target_.c_str()) != 0) fail(target_, system_reason(errno));
-    is_in_place_ = true;
+    scratch_->place();
+}
+
+void OutputFile::keep(const std::string& reason) {
+    if (!scratch_) fail(target_, reason);
+    scratch_->keep(reason);
 }
 
 void check_writable(const fs::path& path) {
@@ -129,6 +123,10 @@ void replace_file(const fs::path& path, std::span<const unsigned char> bytes) {
     OutputFile file(path);
     file.write_at(0, bytes);
     file.put_in_place();
+}
+
+void replace_file(const fs::path& path, std::string_view text) {
+    replace_file(path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
 }
 
 }  // namespace strata::image

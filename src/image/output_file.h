@@ -5,7 +5,10 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
+#include "src/image/placing.h"
 #include "src/image/stream_target.h"
 
 namespace strata::image {
@@ -19,35 +22,48 @@ void check_writable(const std::filesystem::path& path);
 // The same for a file of any kind, which replace_file() is to write.
 void check_replaceable(const std::filesystem::path& path);
 
-// A file in the making: a hidden one of its own in the folder of its target, which stays as it is until put_in_place().
-// Removed by the destructor unless it is in place. All throw ImageError with the system's reason.
+// A file in the making: a hidden one of its own (placing.h) beside its target, which stays as it is until
+// put_in_place(). Removed by the destructor unless it is in place. All throw ImageError with the system's reason.
 class OutputFile {
   public:
-    // A symbolic link stays one; its target is what is replaced. What goes to a stream is held in memory until it is
-    // put in place: written out.
+    // What goes to a stream is held in memory until it is put in place: written out.
     explicit OutputFile(const std::filesystem::path& target);
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
     void write_at(std::int64_t offset, std::span<const unsigned char> bytes);
+
+    // As many bytes as there are, up to all of `bytes`.
+    std::size_t read_at(std::int64_t offset, std::span<unsigned char> bytes) const;
+
+    // As ScratchFile::place().
     void put_in_place();
 
-    const std::filesystem::path& hidden_path() const { return hidden_; }
+    // As ScratchFile::keep(); nothing of a stream is kept.
+    [[noreturn]] void keep(const std::string& reason);
+
+    // What was asked for.
+    const std::filesystem::path& target() const { return target_; }
+
+    // What is written meanwhile, by a name that stays right when its folder is moved.
+    std::filesystem::path hidden_path() const;
 
   private:
     void put_into_stream();
+    int descriptor() const { return scratch_ ? scratch_->descriptor() : memory_; }
 
     std::filesystem::path target_;
     std::optional<StreamTarget> stream_;
-    std::filesystem::path hidden_;
-    int descriptor_ = -1;
-    bool is_in_place_ = false;
+    std::optional<ScratchFile> scratch_;  // of a file
+    int memory_ = -1;                     // of a stream
 };
 
-// Writes `bytes` to a temporary file in the same folder and renames it to `path`. A symbolic link stays one; its target
-// is replaced. On any error (ImageError, with the system's reason) the temporary file is gone and an earlier file is
-// untouched. Not synchronised to the disk: it guards against a full disk or an interruption, not against power loss.
+// Writes `bytes` to a hidden file and puts it in place (placing.h): all of them or, with ImageError and the system's
+// reason, none. Not synchronised to the disk: it guards against a full disk or an interruption, not against power loss.
 void replace_file(const std::filesystem::path& path, std::span<const unsigned char> bytes);
+
+// The same of a text.
+void replace_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace strata::image

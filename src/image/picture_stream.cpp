@@ -1,14 +1,17 @@
 #include "src/image/picture_stream.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <exception>
-#include <fstream>
+#include <utility>
 #include <vector>
 
 #include "src/image/digest.h"
 #include "src/image/encoder.h"
 #include "src/image/image_error.h"
+#include "src/image/library_noise.h"
 #include "src/image/output_file.h"
 
 namespace strata::image {
@@ -18,7 +21,8 @@ namespace {
 // write headers byte by byte, which are gathered here.
 class FileProxy final : public OIIO::Filesystem::IOProxy {
   public:
-    explicit FileProxy(const std::filesystem::path& target) : IOProxy(target.string(), Write), file_(target) {}
+    explicit FileProxy(std::unique_ptr<OutputFile> file)
+        : IOProxy(file->target().string(), Write), file_(std::move(file)) {}
 
     const char* proxytype() const override { return "strata"; }
     std::size_t size() const override { return static_cast<std::size_t>(size_); }
@@ -47,19 +51,20 @@ class FileProxy final : public OIIO::Filesystem::IOProxy {
         if (failure_) std::rethrow_exception(failure_);
     }
 
-    OutputFile& file() { return file_; }
+    OutputFile& file() { return *file_; }
+    const OutputFile& file() const { return *file_; }
 
   private:
     void write_gathered() {
         try {
-            if (!failure_) file_.write_at(gathered_at_, gathered_);
+            if (!failure_) file_->write_at(gathered_at_, gathered_);
         } catch (...) {
             failure_ = std::current_exception();
         }
         gathered_.clear();
     }
 
-    OutputFile file_;
+    std::unique_ptr<OutputFile> file_;
     std::vector<unsigned char> gathered_;
     std::int64_t gathered_at_ = 0;
     std::int64_t size_ = 0;
@@ -69,13 +74,13 @@ class FileProxy final : public OIIO::Filesystem::IOProxy {
 }  // namespace
 
 struct PictureStream::State {
-    State(const std::filesystem::path& path, const PictureShape& picture_shape, const Metadata& metadata,
+    State(std::unique_ptr<OutputFile> file, const PictureShape& picture_shape, const Metadata& metadata,
           const WriteOptions& write_options)
-        : format(format_of(path)),
+        : format(format_of(file->target())),
           shape(picture_shape),
           options(write_options),
-          bytes(path),
-          encoder(path, shape, metadata, options, bytes) {}
+          bytes(std::move(file)),
+          encoder(bytes.file().target(), shape, metadata, options, bytes) {}
 
     Format format;
     PictureShape shape;
@@ -91,24 +96,44 @@ struct PictureStream::State {
     }
 
     // The header went first, so the digest of all bytes takes reading them back.
-    void put_in_place() {
-        std::ifstream written(bytes.file().hidden_path(), std::ios::binary);
+    void complete() {
         const auto read = [&](std::int64_t offset, std::span<unsigned char> part) {
-            written.clear();
-            written.seekg(offset);
-            written.read(reinterpret_cast<char*>(part.data()), static_cast<std::streamsize>(part.size()));
-            return static_cast<std::size_t>(written.gcount());
+            return bytes.file().read_at(offset, part);
         };
         put_digest(format, read, [&](std::int64_t offset, std::span<const unsigned char> part) {
             bytes.file().write_at(offset, part);
         });
-        bytes.file().put_in_place();
+    }
+
+    // The rows of another one, of the same shape and options.
+    void copy_from(const State& written) {
+        try {
+            const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(name_of(format));
+            if (!input) throw ImageError(OIIO::geterror());
+            OIIO::ImageSpec spec;
+            {
+                const LibraryNoise noise;
+                const std::string path = written.bytes.file().hidden_path().string();
+                if (!input->open(path, spec)) throw ImageError(noise.explain(input->geterror()));
+            }
+            encoder.copy(*input);
+        } catch (...) {
+            encoder.write_rows_left();
+            close();
+            throw;
+        }
+        close();
+        complete();
     }
 };
 
 PictureStream::PictureStream(const std::filesystem::path& path, const PictureShape& shape, const Metadata& metadata,
                              const WriteOptions& options)
-    : state_(std::make_unique<State>(path, shape, metadata, options)) {}
+    : PictureStream(std::make_unique<OutputFile>(path), shape, metadata, options) {}
+
+PictureStream::PictureStream(std::unique_ptr<OutputFile> file, const PictureShape& shape, const Metadata& metadata,
+                             const WriteOptions& options)
+    : state_(std::make_unique<State>(std::move(file), shape, metadata, options)) {}
 
 PictureStream::PictureStream(PictureStream&&) noexcept = default;
 PictureStream& PictureStream::operator=(PictureStream&&) noexcept = default;
@@ -129,27 +154,24 @@ void PictureStream::write(std::span<const float> rgb, std::span<const float> ext
 
 void PictureStream::finish() {
     state_->close();
-    state_->put_in_place();
+    state_->complete();
+    state_->bytes.file().put_in_place();
+    tell_clipping(state_->bytes.file().target(), state_->encoder, state_->options);
 }
 
 void PictureStream::finish_partial(const std::filesystem::path& path, const Metadata& metadata) {
     state_->encoder.write_rows_left();
     state_->close();
-    const std::filesystem::path& written = state_->bytes.file().hidden_path();
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(name_of(format_of(path)));
-    if (!input) throw ImageError(OIIO::geterror());
-    OIIO::ImageSpec spec;
-    if (!input->open(written.string(), spec)) throw ImageError(input->geterror());
-    State partial(path, state_->shape, metadata, state_->options);
+    std::unique_ptr<State> partial;
     try {
-        partial.encoder.copy(*input);
-    } catch (...) {
-        partial.encoder.write_rows_left();
-        partial.close();
-        throw;
+        partial = std::make_unique<State>(std::make_unique<OutputFile>(path), state_->shape, metadata, state_->options);
+        partial->copy_from(*state_);
+    } catch (const std::exception& error) {
+        state_->complete();
+        state_->bytes.file().keep(fmt::format("unfinished, and {}", error.what()));
     }
-    partial.close();
-    partial.put_in_place();
+    partial->bytes.file().put_in_place();
+    tell_clipping(path, state_->encoder, state_->options);
 }
 
 }  // namespace strata::image

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "src/image/encode.h"
+#include "src/image/output_file.h"
 
 namespace strata::image {
 
@@ -16,6 +17,9 @@ namespace strata::image {
 class PictureStream {
   public:
     PictureStream(const std::filesystem::path& path, const PictureShape& shape, const Metadata& metadata,
+                  const WriteOptions& options);
+    // Into a file that was begun before.
+    PictureStream(std::unique_ptr<OutputFile> file, const PictureShape& shape, const Metadata& metadata,
                   const WriteOptions& options);
     ~PictureStream();
     PictureStream(PictureStream&&) noexcept;
@@ -29,7 +33,8 @@ class PictureStream {
     void finish();
 
     // Rows not yet written are black. What is there gets other metadata and goes to another path of the same extension;
-    // pixels stay as they were written, but for JPEG's, which are encoded once more.
+    // pixels stay as they were written, but for JPEG's, which are encoded once more. Where that path cannot be written,
+    // what there is is kept as OutputFile::keep() does.
     void finish_partial(const std::filesystem::path& path, const Metadata& metadata);
 
   private:

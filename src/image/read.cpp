@@ -2,18 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "src/image/deflate_check.h"
 #include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/library.h"
+#include "src/image/library_noise.h"
+#include "src/image/light.h"
 #include "src/image/metadata.h"
 #include "src/image/openimageio.h"
-#include "src/image/srgb.h"
 
 namespace strata::image {
 namespace fs = std::filesystem;
@@ -59,7 +63,8 @@ void check_readable(const fs::path& path) {
 }
 
 struct OpenPicture {
-    Format format;
+    std::unique_ptr<LibraryNoise> noise;  // until the file is closed
+    Format format = Format::exr;
     std::unique_ptr<OIIO::ImageInput> input;
     OIIO::ImageSpec spec;
 };
@@ -69,9 +74,12 @@ OpenPicture open_picture(const fs::path& path) {
     const std::optional<Format> format = sniff(path);
     if (!format) fail(path, "it is no EXR, PNG, TIFF or JPEG picture");
     configure_library();
-    OpenPicture opened{*format, OIIO::ImageInput::create(name_of(*format)), {}};
+    OpenPicture opened{std::make_unique<LibraryNoise>(), *format, OIIO::ImageInput::create(name_of(*format)), {}};
     if (!opened.input) fail(path, OIIO::geterror());
-    if (!opened.input->open(path.string(), opened.spec)) fail(path, opened.input->geterror());
+    OIIO::ImageSpec request;
+    request.attribute("oiio:UnassociatedAlpha", 1);  // OpenImageIO would multiply codes, not light
+    if (!opened.input->open(path.string(), opened.spec, request))
+        fail(path, opened.noise->explain(opened.input->geterror()));
     return opened;
 }
 
@@ -111,6 +119,35 @@ void refuse_damaged(const fs::path& path, const OpenPicture& opened) {
     if (const auto damage = find_deflate_damage(path)) fail(path, *damage);
 }
 
+struct StoredPicture {
+    Picture picture;
+    std::vector<float> alpha;  // empty where there is none
+};
+
+// Values as they are in the file, grey in all three channels.
+StoredPicture read_stored(const fs::path& path, const OpenPicture& opened, const ColourChannels& channels) {
+    StoredPicture stored{make_window(opened.format, opened.spec), {}};
+    std::vector<float>& rgb = stored.picture.rgb;
+    const int begin = channels.begin(), end = channels.end();
+    const bool is_plain = channels.alpha < 0 && channels.rgb == std::array{begin, begin + 1, begin + 2};
+    const auto count = static_cast<std::size_t>(end - begin);
+    std::vector<float> all(is_plain ? 0 : stored.picture.pixels() * count);
+    float* const target = is_plain ? rgb.data() : all.data();
+    // OpenImageIO 2.4 "reads" them as zeros.
+    if (opened.format == Format::tiff && opened.spec.format == OIIO::TypeDesc::DOUBLE)
+        fail(path, "its values are floating point of 64 bits; allowed: 16 or 32, or whole numbers");
+    // A TIFF that lacks strips is "read", with an error pending.
+    const bool done = opened.input->read_image(0, 0, begin, end, OIIO::TypeDesc::FLOAT, target);
+    if (!done || opened.input->has_error()) fail(path, opened.noise->explain(opened.input->geterror()));
+    if (is_plain) return stored;
+    const auto place = [&](int channel) { return static_cast<std::size_t>(channel - begin); };
+    for (std::size_t i = 0; i < stored.picture.pixels(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) rgb[3 * i + c] = all[count * i + place(channels.rgb[c])];
+        if (channels.alpha >= 0) stored.alpha.push_back(all[count * i + place(channels.alpha)]);
+    }
+    return stored;
+}
+
 }  // namespace
 
 bool is_picture(const fs::path& path) { return sniff(path).has_value(); }
@@ -129,22 +166,25 @@ PictureFacts read_facts(const fs::path& path) {
 
 Picture read_picture(const fs::path& path) {
     const OpenPicture opened = open_picture(path);
-    if (opened.spec.nchannels < 3)
-        fail(path, fmt::format("it has {} channels, three are needed", opened.spec.nchannels));
     refuse_damaged(path, opened);
-    Picture picture = make_window(opened.format, opened.spec);
-    // A TIFF that lacks strips is "read", with an error pending.
-    const bool done = opened.input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, picture.rgb.data());
-    if (!done || opened.input->has_error()) fail(path, opened.input->geterror());
-    return picture;
+    return read_stored(path, opened, colour_channels(path, opened.spec)).picture;
 }
 
 Picture read_linear(const fs::path& path, double exposure) {
-    Picture picture = read_picture(path);
-    if (sniff(path) == Format::exr) return picture;
-    const double scale = std::exp2(-exposure);
-    for (float& value : picture.rgb) value = static_cast<float>(decode_srgb(value) * scale);
-    return picture;
+    const OpenPicture opened = open_picture(path);
+    refuse_damaged(path, opened);
+    const Transfer transfer = transfer_of(path, opened.format, opened.spec);
+    const ColourChannels channels = colour_channels(path, opened.spec);
+    StoredPicture stored = read_stored(path, opened, channels);
+    const bool is_linear = transfer.curve == Transfer::Curve::linear;
+    if (is_linear && (stored.alpha.empty() || channels.is_associated)) return std::move(stored.picture);
+    const double scale = is_linear ? 1.0 : std::exp2(-exposure);
+    for (std::size_t i = 0; i < stored.picture.rgb.size(); ++i) {
+        const double alpha = stored.alpha.empty() ? 1.0 : std::clamp(stored.alpha[i / 3], 0.0f, 1.0f);
+        float& value = stored.picture.rgb[i];
+        value = static_cast<float>(light_over_black(transfer, value, alpha, channels.is_associated) * scale);
+    }
+    return std::move(stored.picture);
 }
 
 std::optional<std::string> read_metadata(const fs::path& path, std::string_view name) {

@@ -29,14 +29,16 @@ PictureFacts read_facts(const std::filesystem::path& path);
 // before its metadata are believed.
 void refuse_damaged(const std::filesystem::path& path);
 
-// The first three channels. Values are as stored: linear in EXR, sRGB codes scaled to [0,1] in the others. Frame and
-// crop come from EXR and TIFF; elsewhere the picture is its own frame. A frame that does not start at (0,0) is moved
-// there. Throws ImageError for what is no picture, has fewer than three channels or is damaged: by its
-// digest (digest.h) or, where it has none, as far as its format tells.
+// The channels R, G and B, or grey three times; alpha is left out. Values are as stored: codes scaled to [0,1] where
+// they are whole numbers. Frame and crop come from EXR and TIFF; elsewhere the picture is its own frame. A frame that
+// does not start at (0,0) is moved there. Throws ImageError for what is no picture, has neither grey nor RGB or is
+// damaged: by its digest (digest.h) or, where it has none, as far as its format tells.
 Picture read_picture(const std::filesystem::path& path);
 
-// Linear radiance: EXR as stored, the others' sRGB codes decoded, with the exposure (stops, finite) undone that they
-// were written with; what they clipped to 1 stays there. Throws as read_picture().
+// Linear radiance, with alpha that of the picture over black. EXR, and TIFF in floating point, are as stored, NaN and
+// infinity included. Codes, sRGB's unless the file says otherwise (light.h), are decoded, with the exposure (stops,
+// finite) undone that they were written with, unless they are linear; what they clipped to 1 stays there. Throws as
+// read_picture(), and for video's codes of high dynamic range.
 Picture read_linear(const std::filesystem::path& path, double exposure = 0.0);
 
 // A metadata entry as it was written, or nothing when the picture has none of that name. Throws ImageError for what is

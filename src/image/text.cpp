@@ -158,17 +158,4 @@ std::string wrap(std::string_view text, int width_px, const TextStyle& style) {
     return wrapped;
 }
 
-std::string elide(std::string_view text, int width_px, const TextStyle& style) {
-    if (line_width(text, style) <= width_px) return std::string(text);
-    const std::vector<std::size_t> starts = character_starts(text);
-    const std::size_t characters = starts.size() - 1;
-    for (std::size_t kept = characters - 1; kept > 0; --kept) {
-        const std::size_t front = (kept + 1) / 2;
-        std::string shorter =
-            fmt::format("{}…{}", text.substr(0, starts[front]), text.substr(starts[characters - (kept - front)]));
-        if (line_width(shorter, style) <= width_px) return shorter;
-    }
-    return "…";
-}
-
 }  // namespace strata::image

@@ -42,9 +42,6 @@ int draw_text(Canvas& canvas, int x, int y, std::string_view text, const TextSty
 // wider alone is broken between characters.
 std::string wrap(std::string_view text, int width_px, const TextStyle& style);
 
-// The text shortened to width_px with an ellipsis in its middle, if it is wider; one line.
-std::string elide(std::string_view text, int width_px, const TextStyle& style);
-
 // The number of lines of a text, at least 1.
 int line_count(std::string_view text);
 

@@ -26,6 +26,10 @@ sample::PatternKind pattern_kind(EstimatorKind kind) {
     }
 }
 
+// A power of two, so that a pixel of such weights alone has the bits of a plain mean. Below every weight of
+// consequence, yet its product with the least float is still a double: 2^(-900-149) > 2^-1074.
+constexpr double kVanishedWeight = 0x1p-900;
+
 bool samples_by_density(EstimatorKind kind) {
     return kind == EstimatorKind::stratified || kind == EstimatorKind::random || kind == EstimatorKind::sobol;
 }
@@ -128,8 +132,9 @@ void Estimator::place_jittered(std::span<const glm::ivec2> pixels, SampleSet& ou
             out.weight[p * n + i] = weight;
             sum += weight;
         }
-        // Few samples far out under a high order may all have weights that vanish in a double.
-        if (!(sum > 0)) std::fill_n(out.weight.begin() + static_cast<std::ptrdiff_t>(p * n), n, 1.0);
+        // Few samples far out under a high order may all have weights that vanish in a double: they count alike then,
+        // but little beside another pass that knows better.
+        if (!(sum > 0)) std::fill_n(out.weight.begin() + static_cast<std::ptrdiff_t>(p * n), n, kVanishedWeight);
     }
 }
 

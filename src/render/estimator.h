@@ -84,6 +84,10 @@ class Estimator {
     // Whether samples count by B-spline weights.
     bool weighs_samples() const { return weights_.has_value(); }
 
+    // Whether a pixel's sum of weights differs from seed to seed: what it is divided by is random then, and a mean of
+    // such pixels keeps the bias of one.
+    bool has_random_weights() const { return shared() || settings_.kind == scene::EstimatorKind::jittered; }
+
     // Samples a pixel, or a cell where they are shared.
     int sample_count() const { return sample_count_; }
 

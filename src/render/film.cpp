@@ -4,11 +4,12 @@
 
 namespace strata::render {
 
-Film::Film(const Window& window, bool with_costs)
+Film::Film(const Window& window, const FilmExtras& extras)
     : window_(window),
       pixels_(static_cast<std::size_t>(window.width()) * static_cast<std::size_t>(window.height()), glm::vec3(0)),
       finished_(pixels_.size(), 0),
-      costs_(with_costs ? pixels_.size() : 0, glm::vec2(0)) {}
+      costs_(extras.costs ? pixels_.size() : 0, glm::vec2(0)),
+      weights_(extras.weights ? pixels_.size() : 0, 0.0) {}
 
 std::size_t Film::finished_count() const {
     return static_cast<std::size_t>(std::count(finished_.begin(), finished_.end(), std::uint8_t{1}));
@@ -21,6 +22,7 @@ void Film::paste(const Film& part) {
             if (!part.finished(x, y)) continue;
             finish(x, y, part.at(x, y));
             if (!costs_.empty() && !part.costs_.empty()) costs_[index(x, y)] = part.costs_[part.index(x, y)];
+            if (!weights_.empty() && !part.weights_.empty()) weights_[index(x, y)] = part.weights_[part.index(x, y)];
         }
     }
 }

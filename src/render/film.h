@@ -17,10 +17,16 @@ struct Window {
     bool operator==(const Window&) const = default;
 };
 
+// What a film holds of each pixel beside its radiance.
+struct FilmExtras {
+    bool costs = false;
+    bool weights = false;
+};
+
 class Film {
   public:
     Film() = default;
-    explicit Film(const Window& window, bool with_costs = false);
+    explicit Film(const Window& window, const FilmExtras& extras = {});
 
     const Window& window() const { return window_; }
 
@@ -44,11 +50,16 @@ class Film {
     // May be set before or after the pixel is finished.
     void set_cost(int x, int y, const glm::vec2& cost) { costs_[index(x, y)] = cost; }
 
+    // The sum of weights that each pixel's radiance was divided by. Empty: not asked for, or all are alike.
+    const std::vector<double>& weights() const { return weights_; }
+    void set_weight(int x, int y, double weight) { weights_[index(x, y)] = weight; }
+
     // Takes over what is finished of a part, whose window lies inside this film's.
     void paste(const Film& part);
 
     std::size_t bytes() const {
-        return pixels_.size() * (sizeof(glm::vec3) + sizeof(std::uint8_t)) + costs_.size() * sizeof(glm::vec2);
+        return pixels_.size() * (sizeof(glm::vec3) + sizeof(std::uint8_t)) + costs_.size() * sizeof(glm::vec2) +
+               weights_.size() * sizeof(double);
     }
 
   private:
@@ -61,6 +72,7 @@ class Film {
     std::vector<glm::vec3> pixels_;
     std::vector<std::uint8_t> finished_;
     std::vector<glm::vec2> costs_;
+    std::vector<double> weights_;
 };
 
 }  // namespace strata::render

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "src/sample/counter_hash.h"
 
@@ -39,8 +38,8 @@ class ProgressiveRender {
     const RenderOptions& options_;
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     ProgressiveResult result_;
-    std::vector<glm::dvec3> sum_;  // empty while there is one pass
-    NoiseMeter meter_;
+    PassSum sum_;  // empty while there is one pass
+    ErrorMeter meter_;
     double longest_pass_s_ = 0;
 };
 
@@ -48,6 +47,7 @@ RenderResult ProgressiveRender::pass(int number) const {
     EstimatorSettings settings = settings_;
     settings.seed = sample::pass_seed(settings.seed, static_cast<std::uint64_t>(number));
     RenderOptions options = options_;
+    options.with_weights = goal_.passes > 1;
     if (options_.on_progress) {
         options.on_progress = [this](const Progress& progress) { options_.on_progress(whole_progress(progress)); };
     }
@@ -72,11 +72,11 @@ Progress ProgressiveRender::whole_progress(const Progress& of_pass) const {
 void ProgressiveRender::add(RenderResult rendered) {
     const int number = result_.passes++;
     const Film& film = rendered.film;
-    if (number == 1) sum_.assign(result_.render.film.pixels().begin(), result_.render.film.pixels().end());
-    for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += glm::dvec3(film.pixels()[i]);
-    if (number % 2 == 1) meter_.add_pair(result_.render.film, film);
+    if (number == 1) sum_.add(result_.render.film);
+    if (number >= 1) sum_.add(film);
+    if (number % 2 == 1) meter_.add_pair(result_.render.film, film, sum_);
     result_.render.film = std::move(rendered.film);
-    result_.noise = meter_.of_average(result_.passes);
+    result_.error = meter_.of(sum_);
 }
 
 // Once, from what two passes show.
@@ -84,7 +84,7 @@ void ProgressiveRender::predict() {
     if (result_.passes != 2) return;
     double passes = goal_.passes;
     if (goal_.target_rmse > 0) {
-        const double ratio = result_.noise->rmse / goal_.target_rmse;
+        const double ratio = result_.error->rmse / goal_.target_rmse;
         passes = std::min(passes, std::max(4.0, 2 * std::ceil(ratio * ratio)));
     }
     const double pass_s = seconds() / 2;
@@ -95,9 +95,9 @@ void ProgressiveRender::predict() {
 }
 
 std::optional<PassesEnd> ProgressiveRender::reached() const {
-    if (goal_.target_rmse > 0 && result_.noise) {
-        if (!std::isfinite(result_.noise->rmse)) return PassesEnd::not_finite;
-        if (result_.noise->high <= goal_.target_rmse) return PassesEnd::target;
+    if (goal_.target_rmse > 0 && result_.error) {
+        if (!std::isfinite(result_.error->rmse)) return PassesEnd::not_finite;
+        if (result_.error->high <= goal_.target_rmse) return PassesEnd::target;
     }
     if (result_.passes >= goal_.passes) return PassesEnd::passes;
     if (goal_.time_limit_s > 0 && seconds() + longest_pass_s_ > goal_.time_limit_s) return PassesEnd::time;
@@ -105,11 +105,12 @@ std::optional<PassesEnd> ProgressiveRender::reached() const {
 }
 
 void ProgressiveRender::average() {
-    if (sum_.empty()) return;
-    const double count = result_.passes;
-    auto sum = sum_.begin();
+    if (sum_.passes() == 0) return;
+    std::size_t pixel = 0;
     for (int y = window_.y0; y < window_.y1; ++y) {
-        for (int x = window_.x0; x < window_.x1; ++x) result_.render.film.finish(x, y, glm::vec3(*sum++ / count));
+        for (int x = window_.x0; x < window_.x1; ++x) {
+            result_.render.film.finish(x, y, glm::vec3(sum_.mean(pixel++)));
+        }
     }
 }
 
@@ -146,6 +147,10 @@ ProgressiveResult ProgressiveRender::run() {
 bool passes_differ(scene::EstimatorKind kind) {
     return kind != scene::EstimatorKind::none && kind != scene::EstimatorKind::super &&
            kind != scene::EstimatorKind::uniform;
+}
+
+int bytes_a_pixel_of_passes(const Estimator& estimator) {
+    return estimator.has_random_weights() ? kWeightedPassBytes : kPassBytes;
 }
 
 ProgressiveResult render_progressively(const integrate::ImageFunction& image, const EstimatorSettings& settings,

@@ -13,6 +13,10 @@ constexpr int kWholeFilmStrip = 64;
 
 }  // namespace
 
+FilmExtras film_extras(const RenderOptions& options, const Estimator& estimator) {
+    return {.costs = options.with_costs, .weights = options.with_weights && estimator.has_random_weights()};
+}
+
 Window cells_of(const Window& window, const Estimator& estimator) {
     const int reach = estimator.weights().reach();
     return {window.x0 - reach, window.y0 - reach, window.x1 + reach, window.y1 + reach};
@@ -22,7 +26,7 @@ RenderResult render(const integrate::ImageFunction& image, const Estimator& esti
                     const RenderOptions& options) {
     Film film;
     RenderResult result = render_strips(image, estimator, window, options, kWholeFilmStrip, [&](const Film& strip) {
-        if (film.pixels().empty()) film = Film(window, options.with_costs);
+        if (film.pixels().empty()) film = Film(window, film_extras(options, estimator));
         film.paste(strip);
     });
     result.film = std::move(film);

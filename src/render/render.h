@@ -16,6 +16,7 @@ struct RenderOptions {
     ProgressCallback on_progress;         // may be empty; called from any thread, one call at a time
     const CancelToken* cancel = nullptr;  // looked at between batches
     bool with_costs = false;              // films hold what pixels cost
+    bool with_weights = false;            // films hold pixels' sums of weights, where these differ from seed to seed
 };
 
 struct RenderResult {

@@ -27,6 +27,7 @@ void PixelAccumulators::finish(int y0, int y1, int x0, int x1, Film& film) {
         double* sum = rows_.at(x0, rows_.slot(y));
         for (int x = x0; x < x1; ++x, sum += kChannels) {
             film.finish(x, y, glm::vec3(glm::dvec3(sum[0], sum[1], sum[2]) / sum[3]));
+            if (!film.weights().empty()) film.set_weight(x, y, sum[3]);
             std::fill_n(sum, kChannels, 0.0);
         }
     }

@@ -21,7 +21,8 @@ class PixelAccumulators {
     // Adds a cell's samples to the pixels of columns [x0,x1) that see it.
     void add(const CellSamples& samples, int x0, int x1) { add_cell(weights_, samples, rows_, x0, x1); }
 
-    // Divides the sums of rows [y0,y1), columns [x0,x1), by their weights into the film and sets them to zero.
+    // Divides the sums of rows [y0,y1), columns [x0,x1), by their weights into the film, with the weights if it holds
+    // them, and sets them to zero.
     void finish(int y0, int y1, int x0, int x1, Film& film);
 
   private:

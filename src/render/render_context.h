@@ -61,6 +61,9 @@ void render_tiles(RenderContext& context, const StripLayout& layout, StripSink s
 // Estimators whose samples belong to a screen cell and count in many pixels.
 void render_shared(RenderContext& context, const StripLayout& layout, StripSink sink, RenderResult& result);
 
+// What the films of such a render hold.
+FilmExtras film_extras(const RenderOptions& options, const Estimator& estimator);
+
 // Cells whose samples can reach the window's pixels.
 Window cells_of(const Window& window, const Estimator& estimator);
 

@@ -70,7 +70,8 @@ int most_open(const StripLayout& layout, int reach) {
 SharedRender::SharedRender(RenderContext& context, const StripLayout& layout, StripSink sink)
     : context_(context),
       film_(layout, std::vector<int>(static_cast<std::size_t>(layout.count()), 1),
-            most_open(layout, context.estimator.weights().reach()), context.options.with_costs, std::move(sink)),
+            most_open(layout, context.estimator.weights().reach()), film_extras(context.options, context.estimator),
+            std::move(sink)),
       window_(film_.layout().window),
       cells_(cells_of(window_, context.estimator)),
       reach_(context.estimator.weights().reach()),

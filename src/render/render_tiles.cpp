@@ -9,8 +9,13 @@ namespace strata::render {
 
 namespace {
 
+struct WeightedMean {
+    glm::vec3 mean;
+    double weight = 0;  // the sum of weights that it was divided by
+};
+
 // Equation (3), or (2) where there are weights; summed in the samples' order, in double.
-glm::vec3 weighted_mean(std::span<const glm::vec3> radiance, std::span<const double> weight) {
+WeightedMean weighted_mean(std::span<const glm::vec3> radiance, std::span<const double> weight) {
     glm::dvec3 sum(0.0);
     double total = 0;
     if (weight.empty()) {
@@ -22,7 +27,7 @@ glm::vec3 weighted_mean(std::span<const glm::vec3> radiance, std::span<const dou
             total += weight[i];
         }
     }
-    return glm::vec3(sum / total);
+    return {glm::vec3(sum / total), total};
 }
 
 // The pixels of worker.owners; false if cancelled.
@@ -36,7 +41,9 @@ bool render_pixels(RenderContext& context, Worker& worker, Film& film) {
     for (std::size_t p = 0; p < worker.owners.size(); ++p) {
         const std::span<const double> pixel_weight = weight.empty() ? weight : weight.subspan(p * n, n);
         const auto [x, y] = std::pair(worker.owners[p].x, worker.owners[p].y);
-        film.finish(x, y, weighted_mean(radiance.subspan(p * n, n), pixel_weight));
+        const WeightedMean pixel = weighted_mean(radiance.subspan(p * n, n), pixel_weight);
+        film.finish(x, y, pixel.mean);
+        if (!film.weights().empty()) film.set_weight(x, y, pixel.weight);
         if (context.options.with_costs) film.set_cost(x, y, context.mean_cost(worker, p));
     }
     const auto pixels = static_cast<std::int64_t>(worker.owners.size());
@@ -74,8 +81,8 @@ class TiledStrips {
         : context_(context),
           tiles_a_strip_(tiles(layout, 0).count()),
           total_(tiles_a_strip_ * (layout.count() - 1) + tiles(layout, layout.count() - 1).count()),
-          film_(layout, parts(layout), most_open(context.threads(), tiles_a_strip_), context.options.with_costs,
-                std::move(sink)) {
+          film_(layout, parts(layout), most_open(context.threads(), tiles_a_strip_),
+                film_extras(context.options, context.estimator), std::move(sink)) {
         const Window first = tiles(layout, 0).tile(0);
         most_ahead_ = std::clamp<std::int64_t>(kPixelsAhead / (std::int64_t{1} * first.width() * first.height()), 1,
                                                kSpreadTiles);
@@ -131,7 +138,7 @@ void TiledStrips::render_in_order(Worker& worker, int strip, const Window& tile)
 void TiledStrips::render_ahead(Worker& worker, int strip, const Window& tile) {
     const PartScope part(film_, strip, worker);
     if (context_.cancelled()) return;
-    Film film(tile, context_.options.with_costs);
+    Film film(tile, film_extras(context_.options, context_.estimator));
     render_tile(context_, worker, tile, film);
     film_.set_aside(strip, std::move(film));
 }

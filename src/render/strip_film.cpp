@@ -12,19 +12,16 @@ Window StripLayout::strip(int number) const {
     return {window.x0, y0, window.x1, std::min(y0 + rows, window.y1)};
 }
 
-StripFilm::StripFilm(const StripLayout& layout, std::vector<int> parts, int most_open, bool with_costs, StripSink sink)
-    : layout_(layout),
-      most_open_(most_open),
-      with_costs_(with_costs),
-      sink_(std::move(sink)),
-      parts_left_(std::move(parts)) {}
+StripFilm::StripFilm(const StripLayout& layout, std::vector<int> parts, int most_open, const FilmExtras& extras,
+                     StripSink sink)
+    : layout_(layout), most_open_(most_open), extras_(extras), sink_(std::move(sink)), parts_left_(std::move(parts)) {}
 
 Film& StripFilm::open(int number) {
     std::unique_lock lock(mutex_);
     gone_.wait(lock, [&] { return number < next_ + most_open_; });
     const auto [entry, is_new] = open_.try_emplace(number);
     if (is_new) {
-        entry->second = Film(layout_.strip(number), with_costs_);
+        entry->second = Film(layout_.strip(number), extras_);
         hold(entry->second);
     }
     return entry->second;

@@ -33,7 +33,8 @@ struct StripLayout {
 class StripFilm {
   public:
     // parts: of each strip. At most `most_open` strips are held at once, beside what is set aside.
-    StripFilm(const StripLayout& layout, std::vector<int> parts, int most_open, bool with_costs, StripSink sink);
+    StripFilm(const StripLayout& layout, std::vector<int> parts, int most_open, const FilmExtras& extras,
+              StripSink sink);
 
     const StripLayout& layout() const { return layout_; }
 
@@ -58,7 +59,7 @@ class StripFilm {
 
     StripLayout layout_;
     int most_open_;
-    bool with_costs_;
+    FilmExtras extras_;
     StripSink sink_;
 
     mutable std::mutex mutex_;  // guards all below; not held while a sink is at work

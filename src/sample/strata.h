@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 
 namespace strata::sample {
@@ -31,8 +30,5 @@ inline float folded_stratum(std::uint32_t i, std::uint32_t n, std::uint32_t word
 inline float stratum(std::uint32_t i, std::uint32_t n, std::uint32_t word) {
     return std::min((static_cast<float>(i) + unit_float(word)) / static_cast<float>(n), kBelowOne);
 }
-
-// y as a number of [0,1), for what needs no precise tail.
-inline double unfold(float q) { return std::signbit(q) ? static_cast<double>(-q) : 1.0 - static_cast<double>(q); }
 
 }  // namespace strata::sample

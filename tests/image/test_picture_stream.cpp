@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -212,4 +213,55 @@ TEST_CASE("rows that are no strip, and channels that an EXR would sort, are refu
     PictureStream stream(folder / "a.png", picture.shape(), {}, {});
     CHECK_THROWS_AS(stream.write(std::span(picture.rgb).subspan(0, 30)), ImageError);
     CHECK_THROWS_AS(stream.write(picture.rgb), ImageError);
+}
+
+TEST_CASE("what is finished is kept in the temporary folder where its own folder has gone") {
+    const ScratchFolder folder, temporary;
+    const Picture picture = test_picture(20, 100);
+    const char* const before = std::getenv("TMPDIR");
+    const std::string restored = before != nullptr ? before : "/tmp";
+    ::setenv("TMPDIR", temporary.path().c_str(), 1);
+    for (const std::string extension : kExtensions) {
+        CAPTURE(extension);
+        std::filesystem::create_directory(folder / "out");
+        PictureStream stream(folder / ("out/a" + extension), picture.shape(), test_metadata(), {});
+        write_strips(stream, picture, 1);
+        std::filesystem::remove_all(folder / "out");
+        std::string message;
+        try {
+            stream.finish_partial(folder / ("out/a.partial" + extension), test_metadata());
+        } catch (const ImageError& error) {
+            message = error.what();
+        }
+        const std::filesystem::path kept = temporary / ("a.kept" + extension);
+        CHECK_MESSAGE(message.find(kept.string()) != std::string::npos, message);
+        CHECK(read_picture(kept).height() == 100);
+        CHECK(read_facts(kept).integrity == Integrity::whole);
+    }
+    ::setenv("TMPDIR", restored.c_str(), 1);
+}
+
+TEST_CASE("what a format does not hold is known without a pixel") {
+    Metadata long_one;
+    long_one.set("strata:long", std::string(60'001, 'x'));
+    const PictureShape shape{100, 100, 0, 0, 100, 100};
+    const auto refuses = [&](const char* path, const PictureShape& s, const Metadata& metadata, WriteOptions options) {
+        try {
+            check_encodable(path, s, metadata, options);
+        } catch (const ImageError&) {
+            return true;
+        }
+        return false;
+    };
+    for (const char* path : {"a.exr", "a.png", "a.tif", "a.jpg"}) {
+        CHECK(!refuses(path, shape, {}, {}));
+        CHECK(refuses(path, {100, 100, -1, 0, 100, 100}, {}, {}));
+        CHECK(refuses(path, {100, 100, 0, 0, 100, 101}, {}, {}));
+        CHECK(refuses(path, shape, {}, {.exposure = std::numeric_limits<double>::infinity()}));
+    }
+    CHECK(refuses("a.tif", shape, long_one, {}));
+    CHECK(refuses("a.jpg", shape, long_one, {}));
+    CHECK(!refuses("a.png", shape, long_one, {}));
+    CHECK(refuses("a.jpg", {65501, 1, 0, 0, 65501, 1}, {}, {}));
+    CHECK(!refuses("a.png", {65501, 1, 0, 0, 65501, 1}, {}, {}));
 }

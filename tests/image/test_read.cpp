@@ -94,8 +94,9 @@ TEST_CASE("linear radiance comes back from every format, the exposure undone") {
     for (const double exposure : {0.0, 0.9, -1.5}) {
         write_picture(folder / "a.exr", picture, {}, {exposure, ExrFormat::floating});
         CHECK(read_linear(folder / "a.exr", exposure).rgb == picture.rgb);
-        // Half a code, where the curve is steepest: its slope is at most 2.4 / 1.055 of light a code's unit.
-        for (const auto& [name, codes] : {std::pair{"a.png", 255.0}, {"a.tif", 65535.0}}) {
+        // Half a code, or a whole one that is dithered, where the curve is steepest: its slope is at most 2.4 / 1.055
+        // of light a code's unit.
+        for (const auto& [name, codes] : {std::pair{"a.png", 255.0 / 2}, {"a.tif", 65535.0}}) {
             write_picture(folder / name, picture, {}, {exposure, ExrFormat::half});
             const Picture read = read_linear(folder / name, exposure);
             const double bound = 0.5 / codes * 2.4 / 1.055 * std::exp2(-exposure) + 1e-7;

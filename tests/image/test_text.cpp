@@ -109,17 +109,6 @@ TEST_CASE("wrapped text keeps every character and no line is wider than asked, i
     CHECK(wrap("one\n\ntwo", 1000, {}) == "one\n\ntwo");
 }
 
-TEST_CASE("an elided text fits and keeps both its ends; one that fits is as it was") {
-    CHECK(elide("short", 1000, {}) == "short");
-    const std::string text = "sampling.estimator=shared-sobol N=10";
-    for (int width = 40; width < text_width(text, {}); width += 7) {
-        const std::string shorter = elide(text, width, {});
-        CHECK(text_width(shorter, {}) <= width);
-        CHECK(shorter.find("…") != std::string::npos);
-        CHECK(shorter.front() == 's');
-    }
-}
-
 TEST_CASE("UTF-8 is decoded: every code point comes back, what is none is replaced a byte at a time") {
     for (char32_t code = 0x20; code <= 0x10ffff; code += code < 0x3000 ? 1 : 77) {
         if (code >= 0xd800 && code < 0xe000) continue;

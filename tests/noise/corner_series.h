@@ -81,6 +81,35 @@ struct Place {
     std::array<double, D> d;
 };
 
+// d^3/ds^3 n(f + s d) at s = 0, on the side of a cell face that f's own cell is on.
+template <int D>
+double third_directional(const CornerGradients<D>& gradients, const Point<D>& fraction,
+                         const std::array<double, D>& d) {
+    const CornerWeights<D> weights(fraction);
+    double sum = 0.0;
+    for (std::size_t c = 0; c < gradients.size(); ++c) {
+        double along = 0.0;
+        double weight_second = 0.0;
+        double weight_third = 0.0;
+        for (std::size_t i = 0; i < D; ++i) {
+            along += gradients[c][i] * d[i];
+            for (std::size_t j = 0; j < D; ++j) {
+                std::array<std::size_t, D> orders{};
+                ++orders[i];
+                ++orders[j];
+                weight_second += weights.derivative(c, orders) * d[i] * d[j];
+                for (std::size_t k = 0; k < D; ++k) {
+                    std::array<std::size_t, D> third = orders;
+                    ++third[k];
+                    weight_third += weights.derivative(c, third) * d[i] * d[j] * d[k];
+                }
+            }
+        }
+        sum += 3.0 * weight_second * along + weight_third * corner_ramp<D>(gradients[c], fraction, c);
+    }
+    return sum;
+}
+
 // The derivatives of order 0..3 along d that the interpolation gives.
 template <int D>
 std::array<double, kOrders> along(const CornerGradients<D>& gradients, const Place<D>& place) {

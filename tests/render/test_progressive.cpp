@@ -68,23 +68,30 @@ TEST_CASE("one pass is the plain render, and so is pass 0 of any seed") {
     for (const EstimatorKind kind : kAllEstimators) {
         const ProgressiveResult one = progressive(image, settings(kind), window, {});
         CHECK(one.passes == 1);
-        CHECK(!one.noise);
+        CHECK(!one.error);
         CHECK(one.render.film.pixels() == render::render(image, Estimator(settings(kind)), window).film.pixels());
     }
     CHECK(sample::pass_seed(77, 0) == 77);
 }
 
-TEST_CASE("K passes are the mean of K plain renders with the passes' seeds, summed in order") {
+TEST_CASE("K passes are the mean of K plain renders with the passes' seeds, each counting by its sum of weights") {
     const auto image = busy();
     const Window window{0, 0, 11, 6};
     for (const EstimatorKind kind : kRandomised) {
         for (const int passes : {2, 3, 6}) {
             std::vector<glm::dvec3> sum(66, glm::dvec3(0));
+            std::vector<double> total(66, 0.0);
+            RenderOptions options;
+            options.with_weights = true;
             for (int p = 0; p < passes; ++p) {
                 EstimatorSettings s = settings(kind);
                 s.seed = sample::pass_seed(s.seed, static_cast<std::uint64_t>(p));
-                const RenderResult plain = render::render(image, Estimator(s), window);
-                for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += glm::dvec3(plain.film.pixels()[i]);
+                const Film plain = render::render(image, Estimator(s), window, options).film;
+                for (std::size_t i = 0; i < sum.size(); ++i) {
+                    const double weight = plain.weights().empty() ? 1.0 : plain.weights()[i];
+                    sum[i] += weight * glm::dvec3(plain.pixels()[i]);
+                    total[i] += weight;
+                }
             }
             const ProgressiveResult result = progressive(image, settings(kind), window, {.passes = passes});
             CHECK(result.passes == passes);
@@ -92,7 +99,7 @@ TEST_CASE("K passes are the mean of K plain renders with the passes' seeds, summ
             CHECK(!result.render.cancelled);
             int wrong = 0;
             for (std::size_t i = 0; i < sum.size(); ++i)
-                wrong += result.render.film.pixels()[i] != glm::vec3(sum[i] / static_cast<double>(passes));
+                wrong += result.render.film.pixels()[i] != glm::vec3(sum[i] / total[i]);
             CHECK(wrong == 0);
         }
     }
@@ -107,7 +114,7 @@ TEST_CASE(
             progressive(image, settings(kind), window, {.passes = kMostPasses, .target_rmse = 0.03}, 2);
         CHECK(by_target.end == PassesEnd::target);
         CHECK(by_target.passes >= 4);
-        CHECK(by_target.noise->high <= 0.03);
+        CHECK(by_target.error->high <= 0.03);
         CHECK(by_target.predicted_passes.has_value());
         const PassGoal same{.passes = by_target.passes};
         CHECK(progressive(image, settings(kind), window, same).render.film.pixels() == by_target.render.film.pixels());
@@ -200,18 +207,18 @@ TEST_CASE("the noise told from differences is that against the truth, and its up
         for (const int passes : {4, 8}) {
             // Against chance, "the truth" of each trial is the error's root mean square over the trials.
             double squares = 0, estimated = 0;
-            std::vector<NoiseEstimate> estimates;
+            std::vector<ErrorEstimate> estimates;
             for (int trial = 0; trial < kTrials; ++trial) {
                 EstimatorSettings s = settings(kind, 3, 1000 + static_cast<std::uint64_t>(trial));
                 s.shutter = {};
                 const ProgressiveResult result = progressive(image, s, window, {.passes = passes});
                 squares += std::pow(rmse(result.render.film, truth), 2);
-                estimated += std::pow(result.noise->rmse, 2);
-                estimates.push_back(*result.noise);
+                estimated += std::pow(result.error->rmse, 2);
+                estimates.push_back(*result.error);
             }
             const double true_rmse = std::sqrt(squares / kTrials);
             int below_high = 0, above_low = 0;
-            for (const NoiseEstimate& e : estimates) {
+            for (const ErrorEstimate& e : estimates) {
                 below_high += true_rmse <= e.high;
                 above_low += true_rmse >= e.low;
             }

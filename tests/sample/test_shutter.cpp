@@ -8,8 +8,10 @@
 #include "src/sample/counter_hash.h"
 #include "src/sample/shutter.h"
 #include "src/sample/strata.h"
+#include "tests/sample/unfold.h"
 
 using namespace strata::sample;
+using strata::sample::test::unfold;
 
 TEST_CASE("every pixel has one sample in each of its N^2 strata of time") {
     for (const std::size_t n : {std::size_t{1}, std::size_t{4}, std::size_t{9}, std::size_t{100}, std::size_t{4096}}) {

@@ -9,8 +9,10 @@
 #include "src/sample/counter_hash.h"
 #include "src/sample/pattern.h"
 #include "src/sample/strata.h"
+#include "tests/sample/unfold.h"
 
 using namespace strata::sample;
+using strata::sample::test::unfold;
 
 namespace {
 

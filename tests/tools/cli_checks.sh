@@ -41,14 +41,32 @@ refuses() { # sentence status pattern arguments...
 # shellcheck disable=SC2034 # used by the scripts that source this
 interruptible=(env --default-signal=INT --default-signal=QUIT)
 
-# Until the program catches SIGINT.
-await_handler() { # pid
-    local i
-    for ((i = 0; i < 3000; ++i)); do
-        [[ $(sed -n 's/^SigCgt:.*\(.\)$/\1/p' "/proc/$1/status" 2>/dev/null) == [2367abefABEF] ]] && return
-        sleep 0.01
+# Until a command succeeds; a failed check when it does not in time.
+await() { # sentence seconds command...
+    local end=$((SECONDS + $2))
+    until "${@:3}"; do
+        if ((SECONDS > end)); then
+            expect "$1, within $2 s" no yes
+            return 1
+        fi
+        sleep 0.02
     done
 }
+
+# A script's own background job; sets code. One that does not end in time is a failed check, and killed.
+await_end() { # sentence pid
+    await "$1" 60 is_over "$2" || kill -KILL "$2"
+    wait "$2"
+    # shellcheck disable=SC2034 # used by the scripts that source this
+    code=$?
+}
+
+is_over() { ! kill -0 "$1" 2>/dev/null; } # pid
+
+catches_interrupts() { [[ $(sed -n 's/^SigCgt:.*\(.\)$/\1/p' "/proc/$1/status" 2>/dev/null) == [2367abefABEF] ]]; } # pid
+
+# Until the program catches SIGINT.
+await_handler() { await 'the program listens to SIGINT' 30 catches_interrupts "$1"; } # pid
 
 # Runs each group, a function, in a folder named like it, and sums up: the script's last command.
 run_groups() { # function...

@@ -13,7 +13,7 @@ namespace {
 // Strips of a picture whose costs are (x, 2 y).
 void add_strips(CostPicture& picture, const render::Window& window, int rows) {
     for (int y0 = window.y0; y0 < window.y1; y0 += rows) {
-        render::Film strip({window.x0, y0, window.x1, std::min(y0 + rows, window.y1)}, true);
+        render::Film strip({window.x0, y0, window.x1, std::min(y0 + rows, window.y1)}, {.costs = true});
         for (int y = y0; y < strip.window().y1; ++y)
             for (int x = window.x0; x < window.x1; ++x)
                 strip.set_cost(x, y, {static_cast<float>(x), 2.0f * static_cast<float>(y)});
@@ -34,7 +34,7 @@ TEST_CASE("names of AOVs are taken in any order, make each channel once, and no 
 }
 
 TEST_CASE("values of a strip are those of its pixels in the order of the channels") {
-    render::Film strip({0, 0, 2, 1}, true);
+    render::Film strip({0, 0, 2, 1}, {.costs = true});
     strip.set_cost(0, 0, {1, 2});
     strip.set_cost(1, 0, {3, 4});
     CHECK(aov_values({Aov::steps}, strip) == std::vector<float>{1, 3});

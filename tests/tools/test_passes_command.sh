@@ -45,7 +45,7 @@ check_same_bits() {
     run render target.exr --estimator none --quiet -o aliased.exr
     expect 'another estimator may drop the recorded passes' "$status: $output" '0: '
     run render edge --size 48x27 -N 2 --passes 6 --target-rmse 0.000001 -o bounded.exr
-    expect_match 'a target that its passes do not reach is told' "$status: $output" '0: *passes   6, noise *not reached in these passes*'
+    expect_match 'a target that its passes do not reach is told' "$status: $output" '0: *passes   6, sampling error *not reached in these passes*'
 }
 
 check_interruption() {

@@ -1,14 +1,12 @@
 #include "tools/animate/film.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "src/image/format.h"
-#include "src/image/scratch_files.h"
 #include "tools/process.h"
 #include "tools/temporary_folder.h"
 
@@ -59,27 +57,6 @@ Words codec(const fs::path& film, const FilmTiming& timing, int width, int heigh
     return words;
 }
 
-// Beside the film and hidden; gone unless it was renamed.
-class TemporaryFilm {
-  public:
-    explicit TemporaryFilm(const fs::path& film)
-        : path_(film.parent_path() / fmt::format(".strata-film-{}{}", ::getpid(), film.extension().string())) {
-        image::remember_scratch_file(path_.c_str());
-    }
-    ~TemporaryFilm() {
-        std::error_code ignored;
-        fs::remove(path_, ignored);
-        image::forget_scratch_file(path_.c_str());
-    }
-    TemporaryFilm(const TemporaryFilm&) = delete;
-    TemporaryFilm& operator=(const TemporaryFilm&) = delete;
-
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
-
 // ffmpeg takes frames that are numbered without gaps: links to those that the film has, in a folder of their own.
 class FramesInARow {
   public:
@@ -109,9 +86,9 @@ bool is_film(const fs::path& path) {
     return extension == ".mp4" || extension == ".webm" || extension == ".gif";
 }
 
-void encode_film(const fs::path& film, const FramePattern& frames, const FilmTiming& timing, int width, int height) {
+void encode_film(const fs::path& film, const image::ScratchFile& file, const FramePattern& frames,
+                 const FilmTiming& timing, int width, int height) {
     const fs::path ffmpeg = find_program("ffmpeg", "ffmpeg", "video");
-    const TemporaryFilm temporary(film);
     const FramesInARow in_a_row(frames, timing.frames);
     Words words{"-nostdin",
                 "-hide_banner",
@@ -138,11 +115,8 @@ void encode_film(const fs::path& film, const FramePattern& frames, const FilmTim
                 "+bitexact"};
     const Words chosen = codec(film, timing, width, height);
     words.insert(words.end(), chosen.begin(), chosen.end());
-    words.push_back("file:" + temporary.path().string());
+    words.push_back("file:" + file.path().string());
     run_program(ffmpeg, words);
-    std::error_code error;
-    fs::rename(temporary.path(), film, error);
-    if (error) throw ProcessError(fmt::format("cannot write \"{}\": {}", film.string(), error.message()));
 }
 
 }  // namespace strata::tools

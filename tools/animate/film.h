@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "src/image/placing.h"
 #include "tools/animate/frames.h"
 #include "tools/animate/timing.h"
 
@@ -12,8 +13,8 @@ namespace strata::tools {
 bool is_film(const std::filesystem::path& path);
 
 // Encodes PNG frames of width x height. Colours are tagged as BT.709, odd sides of video repeat their last row or
-// column; equal frames make equal files. The film appears whole or not at all. Throws ProcessError.
-void encode_film(const std::filesystem::path& film, const FramePattern& frames, const FilmTiming& timing, int width,
-                 int height);
+// column; equal frames make equal files. The film is written to `file`, which is not put in place. Throws ProcessError.
+void encode_film(const std::filesystem::path& film, const image::ScratchFile& file, const FramePattern& frames,
+                 const FilmTiming& timing, int width, int height);
 
 }  // namespace strata::tools

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "src/image/file_paths.h"
 #include "tools/errors.h"
 
 namespace strata::tools {
@@ -15,8 +16,11 @@ FramePattern::FramePattern(const fs::path& typed) : folder_(typed.parent_path())
     const std::string name = typed.filename().string();
     const auto last = name.rfind('#');
     if (last == std::string::npos) {
-        before_ = typed.stem().string() + ".";
+        // Room for the longest number.
         after_ = typed.extension().string();
+        constexpr std::size_t kLongestName = 255, kLongestNumber = 10;
+        const std::size_t rest = kLongestNumber + after_.size();
+        before_ = image::fitting_name(typed.stem().string(), ".", kLongestName - std::min(rest, kLongestName));
         return;
     }
     const auto before_run = name.find_last_not_of('#', last);

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <system_error>
 
+#include "src/image/file_paths.h"
 #include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
@@ -14,6 +14,7 @@
 #include "src/scene/validate.h"
 #include "tools/animate/film.h"
 #include "tools/animate/sheet.h"
+#include "tools/clipping.h"
 #include "tools/errors.h"
 #include "tools/picture_metadata.h"
 #include "tools/process.h"
@@ -81,7 +82,8 @@ void add_output(AnimateJob& job, const fs::path& typed) {
             "-o {}: allowed: files; frames are numbered ones, and films are put in place whole", typed.string()));
     }
     if (is_film(typed)) {
-        if (std::ranges::find(job.films, typed) == job.films.end()) job.films.push_back(typed);
+        const auto is_same = [&](const fs::path& film) { return image::is_one_file(film, typed); };
+        if (std::ranges::none_of(job.films, is_same)) job.films.push_back(typed);
         return;
     }
     try {
@@ -94,19 +96,36 @@ void add_output(AnimateJob& job, const fs::path& typed) {
             fmt::format("{} (of pictures side by side: .png, .tif or .jpg, .mp4, .webm or .gif)", error.what()));
     }
     FrameOutput output{.pattern = FramePattern(typed)};
-    const auto same = [&](const FrameOutput& other) { return other.pattern.text() == output.pattern.text(); };
-    if (std::ranges::none_of(job.frames, same)) job.frames.push_back(std::move(output));
+    const auto is_same = [&](int frame) {
+        return std::ranges::any_of(job.frames, [&](const FrameOutput& other) {
+            return image::is_one_file(other.pattern.path(frame), output.pattern.path(frame));
+        });
+    };
+    if (is_same(job.range.first()) && is_same(job.range.last())) return;
+    if (is_same(job.range.first()) || is_same(job.range.last())) {
+        throw UsageError(
+            fmt::format("-o {}: allowed: files of its own; some frames of another -o are the same", typed.string()));
+    }
+    job.frames.push_back(std::move(output));
 }
 
-// Films are made of PNG frames: those asked for, or some in a folder beside the first film, which stays when the
-// animation is interrupted.
+// Films are made of PNG frames: those asked for, or some in a folder beside the first film (frames_folder.h), which
+// stays when the animation is interrupted.
 void choose_film_source(AnimateJob& job) {
     if (job.films.empty()) return;
     const auto found = std::ranges::find_if(job.frames, is_png);
     job.film_source = static_cast<std::size_t>(found - job.frames.begin());
-    if (found != job.frames.end()) return;
-    job.scratch = fs::path(job.films.front().string() + ".frames");
-    job.frames.push_back({.pattern = FramePattern(job.scratch / "frame.####.png"), .is_scratch = true});
+}
+
+// What its format does not hold, too: the last frame's number is the longest.
+void check_frame(const AnimateJob& job, const fs::path& path, int frame) {
+    image::check_replaceable(path);
+    const image::PictureShape whole{job.width, job.height, 0, 0, job.width, job.height};
+    try {
+        image::check_encodable(path, whole, frame_metadata(job, frame), job.write);
+    } catch (const image::ImageError& error) {
+        throw UsageError(error.what());
+    }
 }
 
 void check_paths(const AnimateJob& job) {
@@ -115,14 +134,8 @@ void check_paths(const AnimateJob& job) {
         image::check_replaceable(film);
     }
     for (const FrameOutput& output : job.frames) {
-        if (output.is_scratch) continue;
-        const fs::path first = output.pattern.path(job.range.first());
-        image::check_replaceable(first);
-    }
-    std::error_code error;
-    if (!job.scratch.empty() && fs::exists(job.scratch, error) && !fs::is_directory(job.scratch, error)) {
-        throw UsageError(fmt::format("{}: allowed: a folder, or nothing, where the film's frames are kept meanwhile",
-                                     job.scratch.string()));
+        for (const int frame : {job.range.first(), job.range.last()})
+            check_frame(job, output.pattern.path(frame), frame);
     }
     if (!job.films.empty()) find_program("ffmpeg", "ffmpeg", "video");
 }
@@ -161,6 +174,7 @@ AnimateJob prepare_animation(const AnimateRequest& request) {
     job.scene = loaded.scene;
     job.format = request.format.empty() ? "half" : request.format;
     job.write = {.exposure = job.scene.film.exposure, .exr_format = parse_exr_format(job.format)};
+    if (!job.quiet) job.write.warn = warn_of_clipping;
     job.range = request.frames.empty() ? default_frames(job.scene) : parse_frames(request.frames);
     job.scene.shutter.frame = job.range.first();
     job.columns_text = choose_columns(request, loaded);
@@ -174,6 +188,10 @@ AnimateJob prepare_animation(const AnimateRequest& request) {
     choose_film_source(job);
     check_paths(job);
     return job;
+}
+
+void add_scratch_frames(AnimateJob& job, const fs::path& folder) {
+    job.frames.push_back({.pattern = FramePattern(folder / "frame.####.png"), .is_scratch = true});
 }
 
 std::vector<scene::Scene> frame_scenes(const AnimateJob& job, int frame) {

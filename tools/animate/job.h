@@ -25,7 +25,7 @@ struct AnimateRequest {
 // One file of each frame.
 struct FrameOutput {
     FramePattern pattern;
-    bool is_scratch = false;  // for a film alone: its own, replaced and removed
+    bool is_scratch = false;  // for a film alone: its own, in a FramesFolder, replaced and removed
 };
 
 struct AnimateJob {
@@ -35,8 +35,7 @@ struct AnimateJob {
     FrameList range;
     std::vector<FrameOutput> frames;
     std::vector<std::filesystem::path> films;
-    std::size_t film_source = 0;    // which of `frames` films are made of
-    std::filesystem::path scratch;  // folder of the scratch frames; empty: there are none
+    std::size_t film_source = 0;  // which of `frames` films are made of
     image::WriteOptions write;
     std::string tracer, format;
     int threads = 0;
@@ -47,6 +46,14 @@ struct AnimateJob {
 // Throws UsageError or SceneError for what cannot be asked for, ImageError for outputs that cannot be written,
 // ProcessError when ffmpeg is wanted and missing.
 AnimateJob prepare_animation(const AnimateRequest& request);
+
+// Whether films are made of frames that nobody asked for.
+inline bool has_scratch_frames(const AnimateJob& job) {
+    return !job.films.empty() && job.film_source == job.frames.size();
+}
+
+// Puts these into a folder.
+void add_scratch_frames(AnimateJob& job, const std::filesystem::path& folder);
 
 // The scenes of a frame's pictures, one a column.
 std::vector<scene::Scene> frame_scenes(const AnimateJob& job, int frame);

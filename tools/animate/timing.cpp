@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/image/format.h"
 #include "tools/animate/film.h"
 #include "tools/errors.h"
 
@@ -18,7 +19,7 @@ constexpr int kLeastDelay_cs = 2;        // players slow down what is quicker
 constexpr double kMostDelay_cs = 65535;  // 16 bits
 constexpr double kMostWebmRate = 500;    // WebM's times are whole milliseconds
 
-bool is_gif(const fs::path& film) { return film.extension() == ".gif"; }
+bool is_gif(const fs::path& film) { return image::extension_of(film) == ".gif"; }
 
 // Where frame i of a GIF begins, as its file says it.
 int begin_cs(const scene::Rate& rate, int i) { return static_cast<int>(std::lround(100.0 * rate.seconds(i))); }
@@ -64,7 +65,7 @@ void check_timing(const fs::path& film, const FrameList& frames, const scene::Ra
             fmt::format("-o {}: {:g} frames/s, allowed in a GIF: {:.2g} or more, a frame lasts {:.0f} s at most",
                         film.string(), shown, least, kMostDelay_cs / 100.0));
     }
-    if (film.extension() == ".webm" && shown > kMostWebmRate) {
+    if (image::extension_of(film) == ".webm" && shown > kMostWebmRate) {
         throw UsageError(fmt::format("-o {}: {:g} frames/s, allowed in WebM: up to {:g}, its times are milliseconds",
                                      film.string(), shown, kMostWebmRate));
     }

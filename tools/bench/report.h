@@ -8,6 +8,7 @@
 #include "tools/bench/against.h"
 #include "tools/bench/figures.h"
 #include "tools/bench/results.h"
+#include "tools/planned_files.h"
 #include "tools/plot/plot.h"
 
 namespace strata::tools::bench {
@@ -25,8 +26,8 @@ Plot plot_report(const Results& results);
 // The files that write_report() puts into a folder.
 std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder);
 
-// Numbers first, then the plot, if it has a panel. Throws ImageError, PlotError and ProcessError.
+// Numbers first, then the plot, if it has a panel: files that are planned, each failing alone.
 void write_report(const std::filesystem::path& folder, const Results& results, const std::vector<Figure>& figures,
-                  const std::vector<Comparison>& earlier);
+                  const std::vector<Comparison>& earlier, PlannedFiles& files);
 
 }  // namespace strata::tools::bench

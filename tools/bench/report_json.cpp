@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "noise/simd_target.h"
-#include "src/image/output_file.h"
 #include "src/scene/enum_names.h"
 #include "tools/bench/report.h"
 #include "tools/converge/report.h"
@@ -127,10 +126,6 @@ Json against_json(const std::vector<Comparison>& earlier) {
     return rows;
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-    image::replace_file(path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
-}
-
 }  // namespace
 
 std::string json_report(const Results& results, const std::vector<Figure>& figures,
@@ -162,13 +157,14 @@ std::vector<std::filesystem::path> report_files(const std::filesystem::path& fol
 }
 
 void write_report(const std::filesystem::path& folder, const Results& results, const std::vector<Figure>& figures,
-                  const std::vector<Comparison>& earlier) {
-    write_text(folder / "bench.json", json_report(results, figures, earlier));
-    write_text(folder / "bench.txt", text_report(results, figures, earlier));
+                  const std::vector<Comparison>& earlier, PlannedFiles& files) {
+    files.write(folder / "bench.json", json_report(results, figures, earlier));
+    files.write(folder / "bench.txt", text_report(results, figures, earlier));
     const Plot plot = plot_report(results);
     if (plot.panels.empty()) return;
-    write_plot(plot, folder / "bench.png");
-    write_plot(plot, folder / "bench.svg");
+    for (const char* name : {"bench.png", "bench.svg"}) {
+        files.write_made(folder / name, [&] { return draw_plot(plot, name); });
+    }
 }
 
 }  // namespace strata::tools::bench

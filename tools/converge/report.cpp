@@ -1,19 +1,8 @@
 #include "tools/converge/report.h"
 
 #include <fstream>
-#include <span>
-
-#include "src/image/output_file.h"
 
 namespace strata::tools {
-
-namespace {
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-    image::replace_file(path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
-}
-
-}  // namespace
 
 const char* tracer_name(integrate::Tracer tracer) { return tracer == integrate::Tracer::fast ? "fast" : "reference"; }
 
@@ -41,18 +30,21 @@ std::vector<std::filesystem::path> report_files(const std::filesystem::path& fol
     return files;
 }
 
-void write_report(const ConvergeReport& report, const std::filesystem::path& folder) {
+void write_report(const ConvergeReport& report, const std::filesystem::path& folder, PlannedFiles& files) {
     // Numbers first: a plot that fails costs none.
-    write_text(folder / "converge.csv", converge_csv(report));
-    write_text(folder / "converge.json", converge_json(report));
-    write_text(folder / "summary.md", converge_summary(report));
-    const Plot samples = converge_plot(report, PlotAgainst::samples);
-    const Plot seconds = converge_plot(report, PlotAgainst::seconds);
-    for (const char* extension : {".png", ".svg"}) {
+    files.write(folder / "converge.csv", converge_csv(report));
+    files.write(folder / "converge.json", converge_json(report));
+    files.write(folder / "summary.md", converge_summary(report));
+    const auto write = [&](const Plot& plot, const std::string& name) {
         // Without any error there is nothing to draw.
-        if (!samples.panels.empty()) write_plot(samples, folder / ("error-samples" + std::string(extension)));
-        if (!seconds.panels.empty()) write_plot(seconds, folder / ("error-time" + std::string(extension)));
-    }
+        if (plot.panels.empty()) return;
+        for (const char* extension : {".png", ".svg"}) {
+            const std::filesystem::path path = folder / (name + extension);
+            files.write_made(path, [&] { return draw_plot(plot, path); });
+        }
+    };
+    write(converge_plot(report, PlotAgainst::samples), "error-samples");
+    write(converge_plot(report, PlotAgainst::seconds), "error-time");
 }
 
 }  // namespace strata::tools

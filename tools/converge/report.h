@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/converge/analysis.h"
+#include "tools/planned_files.h"
 #include "tools/plot/plot.h"
 
 namespace strata::tools {
@@ -33,8 +34,8 @@ Plot converge_plot(const ConvergeReport& report, PlotAgainst against);
 // The files that write_report() will put into a folder.
 std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder);
 
-// Throws ImageError, PlotError and ProcessError.
-void write_report(const ConvergeReport& report, const std::filesystem::path& folder);
+// Those, which are planned; each fails alone.
+void write_report(const ConvergeReport& report, const std::filesystem::path& folder, PlannedFiles& files);
 
 // "fast" or "reference".
 const char* tracer_name(integrate::Tracer tracer);

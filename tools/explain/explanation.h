@@ -30,7 +30,8 @@ std::string explanation_json(const Explanation& explanation);
 struct NamedCost {
     const char* name;
     std::optional<double> predicted, actual;
-    std::optional<double> ratio() const;  // predicted / actual, where both are above zero
+    std::optional<CountEstimate> between{};  // of counts that a pilot told
+    std::optional<double> ratio() const;     // predicted / actual, where both are above zero
 };
 std::vector<NamedCost> costs_of(const Explanation& explanation);
 

@@ -60,6 +60,8 @@ std::string explanation_json(const Explanation& explanation) {
     }
     for (const NamedCost& cost : costs_of(explanation)) {
         costs[cost.name] = {{"predicted", optional(cost.predicted)},
+                            {"low", cost.between ? Json(cost.between->low) : Json(nullptr)},
+                            {"high", cost.between ? Json(cost.between->high) : Json(nullptr)},
                             {"actual", optional(cost.actual)},
                             {"ratio", optional(cost.ratio())}};
     }

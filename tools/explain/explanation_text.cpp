@@ -96,14 +96,16 @@ std::string value_text(const std::string& name, const std::optional<double>& val
 std::string costs_text(const Explanation& explanation) {
     const bool beside = explanation.recorded.has_value();
     const double rays = static_cast<double>(explanation.prediction.costs.rays);
-    std::string text = fmt::format("\n{:<20}{:>12}{:>10}", "cost", "predicted", "a ray");
+    std::string text = fmt::format("\n{:<20}{:>12}{:>10}{:>22}", "cost", "predicted", "a ray", "99 % sure: between");
     if (beside) text += fmt::format("{:>12}{:>20}", "actual", "predicted/actual");
     text += "\n";
     for (const NamedCost& cost : costs_of(explanation)) {
         const std::string name = cost.name;
         const bool counts = !name.ends_with("seconds") && !name.ends_with("bytes");
         const std::string a_ray = counts && cost.predicted ? fmt::format("{:.3g}", *cost.predicted / rays) : "";
-        text += fmt::format("{:<20}{:>12}{:>10}", name, value_text(name, cost.predicted), a_ray);
+        const std::string between =
+            cost.between ? scaled(cost.between->low) + " and " + scaled(cost.between->high) : std::string();
+        text += fmt::format("{:<20}{:>12}{:>10}{:>22}", name, value_text(name, cost.predicted), a_ray, between);
         if (beside) {
             const auto ratio = cost.ratio();
             text +=
@@ -120,8 +122,9 @@ std::string basis_text(const Explanation& explanation) {
     if (prediction.pilot) {
         const double rays = static_cast<double>(prediction.pilot->rays);
         const double share = rays / static_cast<double>(prediction.costs.rays);
-        text = fmt::format("From a pilot of {} rays, {:.3g} % of all{}. Rays are exact.\n", scaled(rays), 100 * share,
-                           share > kPilotFraction ? fmt::format(" (never fewer than {} rays)", kLeastPilotRays) : "");
+        text = fmt::format(
+            "From a pilot of {} rays, {:.3g} % of all{}. Rays are exact.\n", scaled(rays), 100 * share,
+            share > kPilotFraction ? fmt::format(" (of a small picture some {} rays)", kLeastPilotRays) : "");
     } else {
         text = "No pilot: only what is known without one.\n";
     }
@@ -144,17 +147,18 @@ std::optional<double> NamedCost::ratio() const {
 
 std::vector<NamedCost> costs_of(const Explanation& explanation) {
     const Costs& p = explanation.prediction.costs;
+    const CountsBetween& between = explanation.prediction.between;
     const Costs none;
     const bool beside = explanation.recorded.has_value();
     const Costs& a = beside ? explanation.recorded->costs : none;
     std::optional<double> actual_rays;
     if (beside) actual_rays = static_cast<double>(a.rays);
     return {{"rays", static_cast<double>(p.rays), actual_rays},
-            {"shadow_rays", p.shadow_rays, a.shadow_rays},
-            {"hits", p.hits, a.hits},
-            {"noise_evaluations", p.noise_evaluations, a.noise_evaluations},
-            {"executed_lanes", p.executed_lanes, a.executed_lanes},
-            {"steps", p.steps, a.steps},
+            {"shadow_rays", p.shadow_rays, a.shadow_rays, between.shadow_rays},
+            {"hits", p.hits, a.hits, between.hits},
+            {"noise_evaluations", p.noise_evaluations, a.noise_evaluations, between.noise_evaluations},
+            {"executed_lanes", p.executed_lanes, a.executed_lanes, between.executed_lanes},
+            {"steps", p.steps, a.steps, between.steps},
             {"cpu_seconds", p.cpu_seconds, a.cpu_seconds},
             {"seconds", p.seconds, a.seconds},
             {"peak_memory_bytes", p.peak_memory_bytes, a.peak_memory_bytes}};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "src/render/render.h"
@@ -11,9 +13,9 @@ namespace strata::tools {
 
 namespace {
 
-constexpr double kLeastBlocks = 24;   // if there are as many pixels
+constexpr double kLeastBlocks = 128;  // if there are as many pixels: fewer tell little of how they differ
 constexpr double kBlockSamples = 32;  // a side: enough to share what a render's samples share
-constexpr double kWidestBlock = 32;   // pixels: as wide as a render's tiles
+constexpr int kTile = 32;             // pixels: a render's tiles
 
 double cpu_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -32,51 +34,102 @@ int block_start(int from, int to, std::int64_t n, std::int64_t parts, int side, 
     return std::clamp(static_cast<int>(first), from, std::max(from, to - side));
 }
 
+struct Blocks {
+    std::vector<render::Window> windows;  // row by row
+    int columns = 1;
+};
+
+// The whole window.
+Blocks all_blocks(const render::Window& window, int side) {
+    Blocks blocks{{}, (window.width() + side - 1) / side};
+    for (int y = window.y0; y < window.y1; y += side) {
+        for (int x = window.x0; x < window.x1; x += side) {
+            blocks.windows.push_back({x, y, std::min(x + side, window.x1), std::min(y + side, window.y1)});
+        }
+    }
+    return blocks;
+}
+
 // About `wanted` pixels or cells in square blocks, one in each of nearly square parts of the window.
-std::vector<glm::ivec2> choose_owners(const render::Window& window, std::int64_t wanted, int samples_a_side) {
+Blocks choose_blocks(const render::Window& window, std::int64_t wanted, int samples_a_side) {
     const double total = 1.0 * window.width() * window.height();
     const double pixels = std::clamp(static_cast<double>(wanted), 1.0, total);
-    const double widest = std::clamp(kBlockSamples / samples_a_side, 1.0, kWidestBlock);
+    const double widest = std::clamp(kBlockSamples / samples_a_side, 1.0, 1.0 * kTile);
     const int side = static_cast<int>(std::clamp(std::sqrt(pixels / kLeastBlocks), 1.0, widest));
-    const double blocks = std::max(1.0, pixels / (side * side)), part = std::sqrt(total / blocks);
+    if (pixels >= total) return all_blocks(window, side);
+    const double count = std::max(1.0, pixels / (side * side)), part = std::sqrt(total / count);
     const auto columns = std::max<std::int64_t>(1, std::llround(window.width() / part));
-    const auto rows = std::max<std::int64_t>(1, static_cast<std::int64_t>(blocks / static_cast<double>(columns)));
+    const auto rows = std::max<std::int64_t>(1, static_cast<std::int64_t>(count / static_cast<double>(columns)));
     constexpr double kGoldenRatio = 0.6180339887498949, kSecondRatio = 0.7548776662466927;
-    std::vector<glm::ivec2> owners;
+    Blocks blocks{{}, static_cast<int>(columns)};
     for (std::int64_t i = 0; i < rows * columns; ++i) {
         const double n = static_cast<double>(i) + 0.5;
         const int x0 = block_start(window.x0, window.x1, i % columns, columns, side, std::fmod(n * kGoldenRatio, 1.0));
         const int y0 = block_start(window.y0, window.y1, i / columns, rows, side, std::fmod(n * kSecondRatio, 1.0));
-        for (int y = y0; y < std::min(y0 + side, window.y1); ++y) {
-            for (int x = x0; x < std::min(x0 + side, window.x1); ++x) owners.emplace_back(x, y);
-        }
+        blocks.windows.push_back({x0, y0, std::min(x0 + side, window.x1), std::min(y0 + side, window.y1)});
     }
-    return owners;
+    return blocks;
+}
+
+std::vector<glm::ivec2> pixels_of(const render::Window& window) {
+    std::vector<glm::ivec2> pixels;
+    for (int y = window.y0; y < window.y1; ++y) {
+        for (int x = window.x0; x < window.x1; ++x) pixels.emplace_back(x, y);
+    }
+    return pixels;
 }
 
 }  // namespace
+
+// The cells of the screen, with a handful of samples each, that the samples of a square of pixels touch, over the
+// number of samples. Samples of a pixel are spread over the filter's support: at the square's border they touch cells
+// that the next square touches again.
+double cells_a_sample(const render::Estimator& estimator, int columns, int rows) {
+    if (estimator.shared()) return 1.0;
+    render::SampleSet set;
+    estimator.pixel_samples(pixels_of({0, 0, columns, rows}), set);
+    const double cells_a_pixel = std::exp2(std::floor(std::log2(std::max(1, estimator.settings().N) / 2.0)));
+    std::set<std::pair<int, int>> cells;
+    for (std::size_t i = 0; i < set.u.size(); ++i) {
+        cells.emplace(static_cast<int>(std::floor(set.u[i] * cells_a_pixel)),
+                      static_cast<int>(std::floor(set.v[i] * cells_a_pixel)));
+    }
+    return static_cast<double>(cells.size()) / static_cast<double>(set.u.size());
+}
 
 PilotRun run_pilot(const integrate::ImageFunction& image, const render::EstimatorSettings& settings,
                    const render::Window& owners, std::uint64_t rays) {
     const render::Estimator estimator(settings);
     const auto samples = static_cast<std::size_t>(estimator.sample_count());
-    const std::vector<glm::ivec2> chosen = choose_owners(owners, static_cast<std::int64_t>(rays / samples), settings.N);
+    const Blocks blocks = choose_blocks(owners, static_cast<std::int64_t>(rays / samples), settings.N);
     const std::size_t batch = std::max<std::size_t>(1, image.batch_samples() / samples);
     PilotRun pilot;
+    pilot.columns = blocks.columns;
+    const render::Window& block = blocks.windows.front();
+    const int tile_columns = std::min(static_cast<int>(batch), kTile);
+    const int tile_rows = std::clamp(static_cast<int>(batch) / kTile, 1, kTile);
+    pilot.shared_correction =
+        cells_a_sample(estimator, std::min(tile_columns, owners.width()), std::min(tile_rows, owners.height())) /
+        cells_a_sample(estimator, block.width(), block.height());
     render::SampleSet set;
     std::vector<glm::vec3> radiance;
-    for (std::size_t first = 0; first < chosen.size(); first += batch) {
-        const auto part = std::span(chosen).subspan(first, std::min(batch, chosen.size() - first));
-        if (estimator.shared()) {
-            estimator.cell_samples(part, set);
-        } else {
-            estimator.pixel_samples(part, set);
+    for (const render::Window& window : blocks.windows) {
+        const std::vector<glm::ivec2> chosen = pixels_of(window);
+        integrate::Counters& counters = pilot.by_block.emplace_back();
+        for (std::size_t first = 0; first < chosen.size(); first += batch) {
+            const auto part = std::span(chosen).subspan(first, std::min(batch, chosen.size() - first));
+            if (estimator.shared()) {
+                estimator.cell_samples(part, set);
+            } else {
+                estimator.pixel_samples(part, set);
+            }
+            radiance.resize(set.u.size());
+            const double start = cpu_now();
+            image.evaluate(set.batch(0, radiance.size()), radiance, counters);
+            pilot.cpu_seconds += cpu_now() - start;
+            counters.rays += radiance.size();
         }
-        radiance.resize(set.u.size());
-        const double start = cpu_now();
-        image.evaluate(set.batch(0, radiance.size()), radiance, pilot.counters);
-        pilot.cpu_seconds += cpu_now() - start;
-        pilot.counters.rays += radiance.size();
+        pilot.counters += counters;
     }
     return pilot;
 }

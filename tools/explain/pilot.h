@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "src/integrate/image_function.h"
 #include "src/render/estimator.h"
@@ -10,13 +11,17 @@
 namespace strata::tools {
 
 struct PilotRun {
-    integrate::Counters counters;
-    double cpu_seconds = 0.0;  // of evaluating the image function
+    integrate::Counters counters;               // of all blocks
+    std::vector<integrate::Counters> by_block;  // row by row
+    int columns = 1;                         // blocks a row
+    double cpu_seconds = 0.0;                // of evaluating the image function
+    // How many cells of the screen a ray of a render's batch touches, over how many one of these blocks does.
+    double shared_correction = 1.0;
 };
 
 // About `rays` samples (all, if there are no more; at least a pixel's) of those that pixels of the window take, or
-// cells, where samples are shared: small blocks of neighbours all over the window, which share what a render's samples
-// share.
+// cells, where samples are shared: small blocks of neighbours, one in each of equal parts of the window, which share
+// what a render's samples share.
 PilotRun run_pilot(const integrate::ImageFunction& image, const render::EstimatorSettings& settings,
                    const render::Window& owners, std::uint64_t rays);
 

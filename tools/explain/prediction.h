@@ -11,6 +11,7 @@
 #include "src/render/film.h"
 #include "src/scene/scene.h"
 #include "tools/aov.h"
+#include "tools/explain/count_estimate.h"
 
 namespace strata::tools {
 
@@ -27,16 +28,22 @@ struct Pilot {
     double cpu_seconds = 0.0;
 };
 
+// Where counts lie, from a pilot; a point where they are known.
+struct CountsBetween {
+    std::optional<CountEstimate> shadow_rays, hits, noise_evaluations, steps, executed_lanes;
+};
+
 struct Prediction {
     Costs costs;
+    CountsBetween between;
     std::optional<Pilot> pilot;
     int threads = 1;
 };
 
-// A pilot takes this fraction of the rays, but at least kLeastPilotRays, or all if there are fewer, and at most
-// kMostPilotRays, or kMostReferenceRays of the reference tracer's.
+// A pilot takes this fraction of the rays, but at least kLeastPilotRays, or all if there are no more than twice as
+// many, and at most kMostPilotRays, or kMostReferenceRays of the reference tracer's.
 inline constexpr double kPilotFraction = 0.01;
-inline constexpr std::uint64_t kLeastPilotRays = 4096;
+inline constexpr std::uint64_t kLeastPilotRays = 1u << 16;
 inline constexpr std::uint64_t kMostPilotRays = 1u << 18;
 inline constexpr std::uint64_t kMostReferenceRays = 1u << 14;
 

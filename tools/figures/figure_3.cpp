@@ -142,7 +142,7 @@ Plan plan(Size size) {
 
 void draw(const Plan& plan, Pictures, const std::filesystem::path& folder) {
     const std::string text = samples_text();
-    image::replace_file(folder / kData, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+    image::replace_file(folder / kData, text);
     Plot plot;
     plot.columns = 4;
     plot.width = plan.parameters["width_px"];

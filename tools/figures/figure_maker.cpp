@@ -10,6 +10,7 @@
 #include "src/scene/validate.h"
 #include "tools/figures/record.h"
 #include "tools/picture_metadata.h"
+#include "tools/planned_files.h"
 #include "tools/render_picture.h"
 #include "tools/standard_output.h"
 
@@ -62,7 +63,7 @@ class Maker {
 
     void make(const Figure& figure, const Plan& plan) {
         // Without its record a figure counts as unfinished, so that an interruption leaves none that is half new.
-        fs::remove(record_path(options_.folder, plan.number));
+        empty_record(record_path(options_.folder, plan.number));
         std::vector<image::Picture> pictures;
         for (const Part& part : plan.parts) pictures.push_back(render_part(part));
         stop_if_cancelled();
@@ -87,7 +88,7 @@ class Maker {
         progress_.finish(part, rendered.result.counters.rays);
         image::write_picture(options_.folder / part.file, rendered.picture,
                              picture_metadata(part.scene, part.window, "fast", "float"),
-                             {.exr_format = image::ExrFormat::floating});
+                             {.exr_format = image::ExrFormat::floating, .frames_per_second = frame_rate(part.scene)});
         return std::move(rendered.picture);
     }
 
@@ -113,12 +114,18 @@ double work_of(const Plan& plan) {
 
 fs::path record_path(const fs::path& folder, int number) { return folder / fmt::format("figure-{}.json", number); }
 
+std::vector<fs::path> paths_of(const Figure& figure, const MakeOptions& options) {
+    std::vector<fs::path> paths{record_path(options.folder, figure.number)};
+    for (const std::string& file : files_of(figure.plan(options.size))) paths.push_back(options.folder / file);
+    return paths;
+}
+
 bool is_made(const MakeOptions& options, const Plan& plan) {
     return is_made(record_path(options.folder, plan.number), record_of(plan, options.size), files_of(plan),
                    options.quiet);
 }
 
-void make_figures(const std::vector<Figure>& figures, const MakeOptions& options, const render::CancelToken& cancel) {
+bool make_figures(const std::vector<Figure>& figures, const MakeOptions& options, const render::CancelToken& cancel) {
     std::vector<Plan> plans;
     std::vector<bool> kept;
     double work = 0;
@@ -129,14 +136,16 @@ void make_figures(const std::vector<Figure>& figures, const MakeOptions& options
         kept.push_back(!options.overwrite && !figure.is_plot && is_made(options, plans.back()));
         if (!kept.back()) work += work_of(plans.back());
     }
+    bool all = true;
     Maker maker(options, cancel, std::max(work, 1.0));
     for (std::size_t i = 0; i < figures.size(); ++i) {
         if (cancel.requested()) throw Interrupted();
         if (kept[i])
             maker.keep(plans[i]);
         else
-            maker.make(figures[i], plans[i]);
+            all &= is_written(record_path(options.folder, plans[i].number), [&] { maker.make(figures[i], plans[i]); });
     }
+    return all;
 }
 
 }  // namespace strata::tools::figures

@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include "tools/commands.h"
+#include "tools/errors.h"
 #include "tools/figures/record.h"
+#include "tools/process.h"
 
 namespace strata::tools::figures {
 
@@ -51,7 +53,7 @@ bool is_made(const Film& film, const fs::path& folder, bool quiet) {
 }
 
 bool make_film(const Film& film, const FilmOptions& options) {
-    fs::remove(record_path(film, options.folder));
+    empty_record(record_path(film, options.folder));
     std::vector<std::string> words{"animate"};
     words.insert(words.end(), film.settings.begin(), film.settings.end());
     for (const std::string& file : film_files(film)) {
@@ -65,6 +67,7 @@ bool make_film(const Film& film, const FilmOptions& options) {
     int exit_code = 0;
     add_animate_command(program, exit_code);
     program.parse(std::move(words));
+    if (exit_code == kExitRuntime) throw ProcessError(film.name + " could not be made");
     if (exit_code != 0) return false;
     write_record(record_path(film, options.folder), film_record(film), film_files(film));
     return true;

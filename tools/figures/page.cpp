@@ -123,7 +123,7 @@ std::string film_section(const ordered_json& film) {
         text_of(film.at("command")));
 }
 
-// Of the records that are there.
+// Of the records that are there and not emptied (record.h).
 std::vector<ordered_json> records_of(const std::vector<fs::path>& paths) {
     std::vector<ordered_json> records;
     for (const fs::path& path : paths) {
@@ -132,7 +132,7 @@ std::vector<ordered_json> records_of(const std::vector<fs::path>& paths) {
         ordered_json record = ordered_json::parse(file, nullptr, /*allow_exceptions=*/false);
         if (!record.is_object())
             throw std::runtime_error(fmt::format("{}: it is no record of a figure", path.string()));
-        records.push_back(std::move(record));
+        if (!record.empty()) records.push_back(std::move(record));
     }
     return records;
 }
@@ -192,9 +192,7 @@ void write_page(const fs::path& folder) {
     for (const Film& film : films(Size::paper)) film_paths.push_back(folder / (film.name + ".json"));
     const std::vector<ordered_json> figure_records = records_of(figure_paths);
     if (figure_records.empty()) throw std::runtime_error(fmt::format("{}: no figures for a page", folder.string()));
-    const std::string page = page_of(figure_records, records_of(film_paths));
-    image::replace_file(folder / "index.html",
-                        std::span(reinterpret_cast<const unsigned char*>(page.data()), page.size()));
+    image::replace_file(folder / "index.html", page_of(figure_records, records_of(film_paths)));
 }
 
 }  // namespace strata::tools::figures

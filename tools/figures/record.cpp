@@ -1,7 +1,6 @@
 #include "tools/figures/record.h"
 
 #include <fstream>
-#include <span>
 
 #include "src/image/digest.h"
 #include "src/image/output_file.h"
@@ -16,10 +15,11 @@ using nlohmann::ordered_json;
 
 constexpr const char* kDigests = "digests";
 
-// Nothing for what is no record.
+// Nothing for what is no record, an empty object for an emptied one.
 ordered_json read_record(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     ordered_json record = ordered_json::parse(file, nullptr, /*allow_exceptions=*/false);
+    if (record.is_object() && record.empty()) return record;
     return record.is_object() && record.contains(kDigests) && record[kDigests].is_object() ? record : ordered_json();
 }
 
@@ -35,7 +35,12 @@ bool has_its_bytes(const fs::path& file, const ordered_json& digest, bool quiet)
 void write_record(const fs::path& path, ordered_json record, const std::vector<std::string>& files) {
     for (const std::string& file : files) record[kDigests][file] = image::digest_of_file(path.parent_path() / file);
     const std::string text = record.dump() + "\n";
-    image::replace_file(path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+    image::replace_file(path, text);
+}
+
+void empty_record(const fs::path& path) {
+    std::error_code error;
+    if (fs::exists(path, error)) image::replace_file(path, "{}\n");
 }
 
 bool is_made(const fs::path& path, const ordered_json& record, const std::vector<std::string>& files, bool quiet) {
@@ -46,6 +51,7 @@ bool is_made(const fs::path& path, const ordered_json& record, const std::vector
         if (!quiet) tell_damaged(path, {Presence::damaged, "it is no record"});
         return false;
     }
+    if (found.empty()) return false;
     const ordered_json digests = found[kDigests];
     found.erase(kDigests);
     if (found != record) return false;

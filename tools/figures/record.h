@@ -12,6 +12,10 @@ namespace strata::tools::figures {
 void write_record(const std::filesystem::path& path, nlohmann::ordered_json record,
                   const std::vector<std::string>& files);
 
+// Empties a record that is there: without it the files count as unfinished. The file stays, and what its owner set.
+// Throws ImageError.
+void empty_record(const std::filesystem::path& path);
+
 // Whether the record is there and says the same, and each of the files is there with the bytes that it was written
 // with. Tells what is damaged unless quiet.
 bool is_made(const std::filesystem::path& path, const nlohmann::ordered_json& record,

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cmath>
 #include <fstream>
-#include <iterator>
+#include <optional>
+#include <system_error>
 
 #include "src/image/format.h"
 #include "src/image/image_error.h"
@@ -12,6 +14,7 @@
 #include "tools/plot/script.h"
 #include "tools/process.h"
 #include "tools/temporary_folder.h"
+#include "tools/text_file.h"
 
 namespace strata::tools {
 
@@ -84,9 +87,28 @@ void check_panel(const PlotPanel& panel) {
     }
 }
 
-std::vector<unsigned char> bytes_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+// For gnuplot, which would draw a part of it.
+void write_script(const fs::path& script, const std::string& text, const fs::path& path) {
+    errno = 0;
+    std::ofstream file(script, std::ios::binary);
+    file << text;
+    file.close();
+    if (file) return;
+    throw ProcessError(fmt::format("cannot write \"{}\": its script in \"{}\": {}", path.string(),
+                                   script.parent_path().string(),
+                                   std::generic_category().message(errno != 0 ? errno : EIO)));
+}
+
+// What gnuplot has drawn for `path`.
+std::vector<unsigned char> drawing(const fs::path& drawn, const fs::path& path) {
+    std::string why;
+    const std::optional<std::string> bytes = read_text_file(drawn, why);
+    if (!bytes) {
+        throw ProcessError(
+            fmt::format("cannot write \"{}\": what gnuplot drew cannot be read: {}", path.string(), why));
+    }
+    if (bytes->empty()) throw ProcessError("gnuplot drew nothing for " + path.string());
+    return {bytes->begin(), bytes->end()};
 }
 
 }  // namespace
@@ -105,19 +127,19 @@ void check_plot(const Plot& plot) {
     for (const PlotPanel& panel : plot.panels) check_panel(panel);
 }
 
-void write_plot(const Plot& plot, const fs::path& path) {
+std::vector<unsigned char> draw_plot(const Plot& plot, const fs::path& path) {
     const PlotFormat format = format_of(path);
     check_plot(plot);
     const fs::path program = gnuplot();
     TemporaryFolder folder("plot");
     const fs::path script = folder.file("plot.gp"), drawn = folder.file("plot");
-    std::ofstream(script, std::ios::binary) << plot_script(plot, format, drawn.string());
+    write_script(script, plot_script(plot, format, drawn.string()), path);
     // -d: no start-up files of the user or the system.
     run_program(program, {"-d", script.string()});
-    const std::vector<unsigned char> bytes = bytes_of(drawn);
-    if (bytes.empty()) throw ProcessError("gnuplot drew nothing for " + path.string());
-    image::replace_file(path, bytes);
+    return drawing(drawn, path);
 }
+
+void write_plot(const Plot& plot, const fs::path& path) { image::replace_file(path, draw_plot(plot, path)); }
 
 void check_plotter() { gnuplot(); }
 

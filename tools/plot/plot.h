@@ -85,8 +85,11 @@ const std::vector<std::string>& plot_palette();
 // that are not finite, and values that are not positive on a log axis.
 void check_plot(const Plot& plot);
 
-// Draws the plot to a PNG or SVG file, by extension, and puts it in place whole; equal plots are equal files. Throws
-// PlotError, ProcessError (gnuplot is not there or failed) and ImageError (the file cannot be written).
+// The bytes of the plot as PNG or SVG, by the extension of `path`; equal plots are equal bytes. Throws PlotError and
+// ProcessError: gnuplot is not there or failed.
+std::vector<unsigned char> draw_plot(const Plot& plot, const std::filesystem::path& path);
+
+// Puts them in place whole. Throws ImageError, too: the file cannot be written.
 void write_plot(const Plot& plot, const std::filesystem::path& path);
 
 // Throws ProcessError when gnuplot is not there.

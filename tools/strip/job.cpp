@@ -4,21 +4,22 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "src/image/canvas.h"
+#include "src/image/encode.h"
+#include "src/image/file_paths.h"
 #include "src/image/image_error.h"
 #include "src/image/metadata.h"
 #include "src/image/output_file.h"
-#include "src/image/read.h"
 #include "src/image/stream_target.h"
 #include "src/image/text.h"
 #include "src/scene/key_text.h"
 #include "src/scene/printer.h"
-#include "src/scene/toml_reader.h"
 #include "src/scene/typed_number.h"
 #include "tools/column_settings.h"
 #include "tools/errors.h"
+#include "tools/foreign_picture.h"
 #include "tools/picture_labels.h"
 #include "tools/standard_output.h"
 #include "tools/stream_input.h"
@@ -33,20 +34,15 @@ constexpr int kMostColumns = 64;
 constexpr int kMostZoom = 64;
 constexpr int kPanelWidth = 256;  // that the automatic zoom keeps to
 
-StripSource from_file(const std::string& typed) {
+StripSource from_file(const std::string& typed, bool quiet) {
     const auto spooled = spool_stream(typed);
     const fs::path path = spooled.value_or(typed);
-    const std::string label = typed == "-" ? "stdin" : fs::path(typed).stem().string();
-    StripSource source{.name = typed, .label = label, .file = path, .scene = {}, .picture = {}};
-    try {
-        image::refuse_damaged(path);
-        const auto text = image::read_metadata(path, image::kSceneKey);
-        if (text) source.scene = scene::read_scene(*text, typed);
-        source.picture = image::read_linear(path, source.scene ? source.scene->film.exposure : 0.0);
-    } catch (const image::ImageError& error) {
-        throw UsageError(error.what());
-    }
-    return source;
+    ForeignPicture picture = read_foreign_picture(path, typed, quiet);
+    return {.name = typed,
+            .label = typed == "-" ? "stdin" : fs::path(typed).stem().string(),
+            .file = path,
+            .scene = std::move(picture.scene),
+            .picture = std::move(picture.linear)};
 }
 
 StripSource from_settings(const LoadedScene& loaded, const ColumnSettings& settings, const char* origin) {
@@ -63,7 +59,7 @@ void require(bool condition, const char* message) {
 
 std::vector<StripSource> find_columns(const StripRequest& request, const std::optional<LoadedScene>& loaded) {
     std::vector<StripSource> columns;
-    for (const std::string& path : request.pictures) columns.push_back(from_file(path));
+    for (const std::string& path : request.pictures) columns.push_back(from_file(path, request.quiet));
     std::vector<std::optional<scene::Scene>> scenes;
     std::vector<std::string> names;
     for (const StripSource& column : columns) {
@@ -118,7 +114,7 @@ void find_reference(const StripRequest& request, const std::optional<LoadedScene
     }
     std::error_code ignored;
     if (!loaded || fs::exists(text, ignored) || fs::path(text).has_extension())
-        job.reference = from_file(text);
+        job.reference = from_file(text, request.quiet);
     else
         job.reference = from_settings(*loaded, parse_column("--reference", text), "--reference");
 }
@@ -215,6 +211,19 @@ std::string default_caption(const StripJob& job) {
     return text + ".";
 }
 
+// An overscan EXR of another program, whose pixels lie outside its frame, can be shown but not be a part.
+void check_part(const StripJob& job, const StripSource& source, const fs::path& path) {
+    image::check_writable(path);
+    const render::Window& w = job.window;
+    const image::PictureShape rendered{job.frame_width, job.frame_height, w.x0, w.y0, w.x1, w.y1};
+    try {
+        image::check_encodable(path, source.file.empty() ? rendered : source.picture.shape(), {}, {});
+    } catch (const image::ImageError& error) {
+        throw UsageError(fmt::format("--parts: {}: {}; allowed: a --crop inside the frame, or no --parts", source.name,
+                                     error.what()));
+    }
+}
+
 void check_outputs(const StripJob& job) {
     try {
         image::check_canvas_format(job.output);
@@ -223,24 +232,19 @@ void check_outputs(const StripJob& job) {
     }
     image::check_writable(job.output);
     if (!job.parts) return;
-    for (std::size_t i = 0; i < job.columns.size(); ++i) image::check_writable(part_path(job, i));
-    if (job.reference) image::check_writable(part_path(job, std::nullopt));
+    for (std::size_t i = 0; i < job.columns.size(); ++i) check_part(job, job.columns[i], part_path(job, i));
+    if (job.reference) check_part(job, *job.reference, part_path(job, std::nullopt));
 }
 
 // Nothing that is read is written over.
 void check_inputs_stay(const StripJob& job) {
-    std::vector<fs::path> outputs{job.output};
-    if (job.parts) {
-        for (std::size_t i = 0; i < job.columns.size(); ++i) outputs.push_back(part_path(job, i));
-        if (job.reference) outputs.push_back(part_path(job, std::nullopt));
-    }
+    const std::vector<fs::path> outputs = strip_files(job);
     std::vector<fs::path> inputs;
     for (const StripSource& column : job.columns) inputs.push_back(column.file);
     if (job.reference) inputs.push_back(job.reference->file);
     for (const fs::path& input : inputs) {
         for (const fs::path& output : outputs) {
-            std::error_code error;
-            if (!input.empty() && fs::equivalent(input, output, error))
+            if (!input.empty() && image::is_one_file(input, output))
                 throw UsageError(fmt::format("{}: this output is a picture of the strip", output.string()));
         }
     }
@@ -251,7 +255,15 @@ void check_inputs_stay(const StripJob& job) {
 fs::path part_path(const StripJob& job, std::optional<std::size_t> i) {
     const std::string which = i ? fmt::format("{:0{}}", *i + 1, job.columns.size() > 9 ? 2 : 1) : "reference";
     const fs::path sheet = image::stream_target(job.output) ? fs::path("strip.png") : job.output;
-    return sheet.parent_path() / fmt::format("{}-{}.exr", sheet.stem().string(), which);
+    return image::derived_path(sheet, fmt::format("-{}.exr", which));
+}
+
+std::vector<fs::path> strip_files(const StripJob& job) {
+    std::vector<fs::path> files{job.output};
+    if (!job.parts) return files;
+    for (std::size_t i = 0; i < job.columns.size(); ++i) files.push_back(part_path(job, i));
+    if (job.reference) files.push_back(part_path(job, std::nullopt));
+    return files;
 }
 
 StripJob prepare_strip(const StripRequest& request) {

@@ -54,4 +54,7 @@ StripJob prepare_strip(const StripRequest& request);
 // Where part `i`, counted from 0, is written: strip.png -> strip-1.exr, the reference strip-reference.exr.
 std::filesystem::path part_path(const StripJob& job, std::optional<std::size_t> i);
 
+// All that is written: the strip, then its parts, if they are asked for.
+std::vector<std::filesystem::path> strip_files(const StripJob& job);
+
 }  // namespace strata::tools

@@ -9,14 +9,13 @@
 
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
-#include "src/image/read.h"
 #include "src/image/text.h"
 #include "src/scene/key_text.h"
 #include "src/scene/override.h"
 #include "src/scene/printer.h"
-#include "src/scene/toml_reader.h"
 #include "src/scene/validate.h"
 #include "tools/errors.h"
+#include "tools/foreign_picture.h"
 #include "tools/picture_metadata.h"
 
 namespace strata::tools {
@@ -157,15 +156,8 @@ void make_references(const SweepRequest& request, SweepJob& job) {
 }
 
 void read_reference(const SweepRequest& request, SweepJob& job) {
-    try {
-        image::refuse_damaged(request.reference);
-        const auto text = image::read_metadata(request.reference, image::kSceneKey);
-        const double exposure = text ? scene::read_scene(*text, request.reference).film.exposure : 0.0;
-        job.given_reference = image::read_linear(request.reference, exposure);
-        job.given_reference_name = fs::path(request.reference).filename().string();
-    } catch (const image::ImageError& error) {
-        throw UsageError(error.what());
-    }
+    job.given_reference = read_foreign_picture(request.reference, request.reference, request.quiet).linear;
+    job.given_reference_name = fs::path(request.reference).filename().string();
     const image::Picture& reference = *job.given_reference;
     for (const SweepCell& cell : job.cells) {
         const render::Window& w = cell.picture.window;

@@ -8,6 +8,7 @@
 #include "src/render/progress_printer.h"
 #include "tools/already_there.h"
 #include "tools/batch_progress.h"
+#include "tools/picture_metadata.h"
 #include "tools/render_picture.h"
 #include "tools/standard_output.h"
 #include "tools/sweep/tables.h"
@@ -15,6 +16,8 @@
 namespace strata::tools {
 
 namespace {
+
+constexpr int kMostFailures = 2;
 
 std::vector<const SweepPicture*> pictures_of(const SweepJob& job) {
     std::vector<const SweepPicture*> pictures;
@@ -37,7 +40,8 @@ bool is_there(const SweepJob& job, const SweepPicture& picture) {
 
 }  // namespace
 
-SweepOutcome render_sweep(const SweepJob& job, SweepLedger& ledger, const render::CancelToken& cancel) {
+SweepOutcome render_sweep(PlannedFiles& files, const SweepJob& job, SweepLedger& ledger,
+                          const render::CancelToken& cancel) {
     SweepOutcome outcome;
     std::vector<const SweepPicture*> missing;
     double total = 0;
@@ -54,6 +58,7 @@ SweepOutcome render_sweep(const SweepJob& job, SweepLedger& ledger, const render
                                   : fmt::format("kept     {} pictures, {} to render\n", outcome.kept, missing.size()));
     }
 
+    int failed_in_a_row = 0;
     render::ProgressPrinter printer(job.quiet);
     BatchProgress progress(total, printer.callback());
     for (const SweepPicture* picture : missing) {
@@ -62,14 +67,22 @@ SweepOutcome render_sweep(const SweepJob& job, SweepLedger& ledger, const render
             {.threads = job.threads, .on_progress = progress.next(rays_of(*picture)), .cancel = &cancel});
         outcome.cancelled = rendered.result.cancelled || cancel.requested();
         if (!rendered.result.cancelled) {
-            image::write_picture(job.folder / picture->file, rendered.picture, picture->metadata,
-                                 {.exposure = 0, .exr_format = image::ExrFormat::floating});
-            ledger[picture->file] = cost_of(rendered.result, picture->metadata);
-            write_costs(job, ledger);
-            ++outcome.rendered;
+            const std::filesystem::path path = job.folder / picture->file;
+            const bool written = is_written(path, [&] {
+                image::write_picture(path, rendered.picture, picture->metadata,
+                                     {.exposure = 0,
+                                      .exr_format = image::ExrFormat::floating,
+                                      .frames_per_second = frame_rate(picture->scene)});
+            });
+            failed_in_a_row = written ? 0 : failed_in_a_row + 1;
             outcome.unresolved_rays += rendered.result.counters.unresolved_rays;
+            ++(written ? outcome.rendered : outcome.failed);
+            if (written) {
+                ledger[picture->file] = cost_of(rendered.result, picture->metadata);
+                write_costs(files, job, ledger);
+            }
         }
-        if (outcome.cancelled) break;
+        if (outcome.cancelled || failed_in_a_row == kMostFailures) break;
     }
     printer.clear();
     return outcome;

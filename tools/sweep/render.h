@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "src/render/cancel.h"
+#include "tools/planned_files.h"
 #include "tools/sweep/job.h"
 #include "tools/sweep/ledger.h"
 
@@ -13,10 +14,13 @@ namespace strata::tools {
 struct SweepOutcome {
     std::size_t kept = 0, rendered = 0;
     std::size_t unresolved_rays = 0;  // of the pictures rendered now
+    std::size_t failed = 0;           // could not be written, as was told
     bool cancelled = false;
 };
 
-// Each picture is written when it is finished, and its cost with it. Prints what is kept and what is to be done.
-SweepOutcome render_sweep(const SweepJob& job, SweepLedger& ledger, const render::CancelToken& cancel);
+// Each picture is written when it is finished, and its cost with it. Prints what is kept and what is to be done. A
+// picture that cannot be written is told and does not keep the others from being rendered; two in a row end the sweep.
+SweepOutcome render_sweep(PlannedFiles& files, const SweepJob& job, SweepLedger& ledger,
+                          const render::CancelToken& cancel);
 
 }  // namespace strata::tools

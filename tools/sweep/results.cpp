@@ -11,7 +11,8 @@ namespace {
 image::Picture read(const SweepJob& job, const std::string& file) { return image::read_picture(job.folder / file); }
 
 // Writes the mean, too.
-image::Picture mean_of_halves(const SweepJob& job, const SweepReference& reference, double& error) {
+image::Picture mean_of_halves(PlannedFiles& files, const SweepJob& job, const SweepReference& reference,
+                              double& error) {
     image::Picture mean = read(job, reference.halves[0].file);
     const image::Picture other = read(job, reference.halves[1].file);
     error = image::compare(mean, other).rmse / 2;
@@ -24,7 +25,7 @@ image::Picture mean_of_halves(const SweepJob& job, const SweepReference& referen
     metadata.set("strata:mean_of", reference.halves[0].file + ", " + reference.halves[1].file);
     metadata.set("strata:reference_error", error);
     const std::filesystem::path path = job.folder / reference.file;
-    write_if_changed(path, image::encode(path, mean, metadata, {.exr_format = image::ExrFormat::floating}));
+    write_if_changed(files, path, image::encode(path, mean, metadata, {.exr_format = image::ExrFormat::floating}));
     return mean;
 }
 
@@ -35,7 +36,7 @@ bool SweepResults::is_near_reference(const SweepJob& job, std::size_t cell) cons
     return cells[cell]->rmse < kTrustFactor * reference_errors[job.cells[cell].reference];
 }
 
-SweepResults evaluate_sweep(const SweepJob& job) {
+SweepResults evaluate_sweep(PlannedFiles& files, const SweepJob& job) {
     SweepResults results;
     results.cells.resize(job.cells.size());
     const auto compare_cells = [&](const image::Picture& reference, std::size_t index) {
@@ -46,7 +47,7 @@ SweepResults evaluate_sweep(const SweepJob& job) {
     if (job.given_reference) compare_cells(*job.given_reference, 0);
     for (std::size_t r = 0; r < job.references.size(); ++r) {
         double error = 0;
-        const image::Picture reference = mean_of_halves(job, job.references[r], error);
+        const image::Picture reference = mean_of_halves(files, job, job.references[r], error);
         results.reference_errors.push_back(error);
         compare_cells(reference, r);
     }

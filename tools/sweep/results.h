@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/image/compare.h"
+#include "tools/planned_files.h"
 #include "tools/sweep/job.h"
 
 namespace strata::tools {
@@ -21,6 +22,6 @@ struct SweepResults {
 
 // Reads the pictures back and writes the means of the references' halves. The difference of two independent halves has
 // twice the variance of one of them, their mean half of it: its error is RMSE(a, b) / 2.
-SweepResults evaluate_sweep(const SweepJob& job);
+SweepResults evaluate_sweep(PlannedFiles& files, const SweepJob& job);
 
 }  // namespace strata::tools

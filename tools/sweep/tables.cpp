@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "noise/simd_target.h"
-#include "src/image/output_file.h"
 #include "src/scene/enum_names.h"
 
 namespace strata::tools {
@@ -17,8 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-    write_if_changed(path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+void write_text(PlannedFiles& files, const std::filesystem::path& path, const std::string& text) {
+    write_if_changed(files, path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
 }
 
 std::string dump(const Json& json) {
@@ -142,22 +141,22 @@ std::string csv(const SweepJob& job, const SweepLedger& ledger, const SweepResul
 
 }  // namespace
 
-void write_if_changed(const std::filesystem::path& path, std::span<const unsigned char> bytes) {
+void write_if_changed(PlannedFiles& files, const std::filesystem::path& path, std::span<const unsigned char> bytes) {
     std::ifstream file(path, std::ios::binary);
     const std::vector<char> present{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     const bool same =
         file.is_open() && std::equal(present.begin(), present.end(), bytes.begin(), bytes.end(),
                                      [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
-    if (!same) image::replace_file(path, bytes);
+    if (!same) files.write_made(path, [&] { return bytes; });
 }
 
-void write_costs(const SweepJob& job, const SweepLedger& ledger) {
-    write_text(job.folder / kJsonFile, dump({{"unfinished", true}, {"costs", to_json(ledger)}}));
+void write_costs(PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger) {
+    write_text(files, job.folder / kJsonFile, dump({{"unfinished", true}, {"costs", to_json(ledger)}}));
 }
 
-void write_tables(const SweepJob& job, const SweepLedger& ledger, const SweepResults& results) {
-    write_text(job.folder / kCsvFile, csv(job, ledger, results));
-    write_text(job.folder / kJsonFile, dump(sweep_json(job, ledger, results)));
+void write_tables(PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger, const SweepResults& results) {
+    write_text(files, job.folder / kCsvFile, csv(job, ledger, results));
+    write_text(files, job.folder / kJsonFile, dump(sweep_json(job, ledger, results)));
 }
 
 }  // namespace strata::tools

@@ -4,19 +4,20 @@
 #include <filesystem>
 #include <span>
 
+#include "tools/planned_files.h"
 #include "tools/sweep/job.h"
 #include "tools/sweep/ledger.h"
 #include "tools/sweep/results.h"
 
 namespace strata::tools {
 
-// Leaves a file that has these bytes already alone. Throws ImageError.
-void write_if_changed(const std::filesystem::path& path, std::span<const unsigned char> bytes);
+// Leaves a file that has these bytes already alone.
+void write_if_changed(PlannedFiles& files, const std::filesystem::path& path, std::span<const unsigned char> bytes);
 
 // sweep.json of a sweep that is not finished: the costs so far.
-void write_costs(const SweepJob& job, const SweepLedger& ledger);
+void write_costs(PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger);
 
 // Both tables. Equal sweeps give equal tables, apart from seconds, cpu_seconds and threads.
-void write_tables(const SweepJob& job, const SweepLedger& ledger, const SweepResults& results);
+void write_tables(PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger, const SweepResults& results);
 
 }  // namespace strata::tools

@@ -120,9 +120,6 @@ class FieldOracle {
         return probe_with(p, slope, noise_speed);
     }
 
-    // The same in every direction: f keeps its sign in the open ball of radius `clear`.
-    Probe probe_ball(const Vec& p) const { return probe_with(p, shape_.kind == Kind::isosurface ? 0.0 : 1.0, 1.0); }
-
   private:
     double max_value() const { return shape_.kind == Kind::terrain ? kMaxValue2 : kMaxValue3; }
     double max_slope() const { return shape_.kind == Kind::terrain ? kMaxSlope2 : kMaxSlope3; }

@@ -1,0 +1,120 @@
+#include "src/library/render_setting.h"
+
+#include <fmt/format.h>
+
+#include "src/library/scene_data.h"
+#include "src/library/translate.h"
+#include "src/render/processors.h"
+#include "src/scene/enum_names.h"
+
+namespace strata {
+
+namespace {
+
+constexpr int kMostThreads = 1024;  // each has buffers of its own
+constexpr int kLargestTile = 1024;  // progress comes by the tile
+constexpr double kLeastRmse = 1e-9, kMostRmse = 1e6;
+
+int in_range(const char* name, int value, int least, int most) {
+    if (value >= least && value <= most) return value;
+    throw Error(fmt::format("{}: out of range ({}), allowed: {} to {}", name, value, least, most));
+}
+
+render::Window window_of(const std::optional<Window>& window, const scene::Film& film) {
+    if (!window) return {0, 0, film.width, film.height};
+    const Window& w = *window;
+    const bool is_inside =
+        0 <= w.x0 && w.x0 < w.x1 && w.x1 <= film.width && 0 <= w.y0 && w.y0 < w.y1 && w.y1 <= film.height;
+    if (is_inside) return {w.x0, w.y0, w.x1, w.y1};
+    throw Error(fmt::format("window {},{},{},{}: allowed: x0,y0,x1,y1 with 0 <= x0 < x1 <= {} and 0 <= y0 < y1 <= {}",
+                            w.x0, w.y0, w.x1, w.y1, film.width, film.height));
+}
+
+render::PassGoal goal_of(const RenderOptions& options, scene::EstimatorKind estimator) {
+    const double rmse = options.target_rmse, limit_s = options.time_limit.count();
+    if (rmse != 0.0 && !(rmse >= kLeastRmse && rmse <= kMostRmse)) {
+        throw Error(fmt::format("target_rmse: out of range ({}), allowed: a linear radiance, {} to {}, or 0", rmse,
+                                kLeastRmse, kMostRmse));
+    }
+    if (!(limit_s >= 0.0)) throw Error(fmt::format("time_limit: out of range ({} s), allowed: 0 s or more", limit_s));
+    const bool is_open_ended = rmse > 0.0 || limit_s > 0.0;
+    const int otherwise = is_open_ended ? render::kMostPasses : 1;
+    const int passes = in_range("passes", options.passes.value_or(otherwise), 1, render::kMostPasses);
+    if (passes > 1 && !render::passes_differ(estimator)) {
+        throw Error(fmt::format(
+            "{}: passes of the estimator '{}' are all alike, their mean is no better than one; allowed with passes: "
+            "jittered, stratified, random, sobol, shared, shared-sobol",
+            rmse > 0.0      ? "target_rmse"
+            : is_open_ended ? "time_limit"
+                            : "passes",
+            scene::name_of(estimator)));
+    }
+    return {passes, rmse, limit_s};
+}
+
+// Of several passes, while they are rendered: the sum, the pass in work and the one before it.
+constexpr double kBytesAPixelOfPasses = 24 + 13 + 13;
+
+void check_memory(const render::Window& window, const render::PassGoal& goal) {
+    if (goal.passes == 1) return;
+    const double needed = kBytesAPixelOfPasses * window.width() * window.height();
+    const double present = static_cast<double>(render::available_memory_bytes());
+    if (needed <= present) return;
+    throw Error(fmt::format(
+        "passes: {}x{} pixels need {:.1f} GB of memory, there are {:.1f} GB; allowed: one pass, or a smaller window",
+        window.width(), window.height(), needed / 1e9, present / 1e9));
+}
+
+}  // namespace
+
+RenderSetting::RenderSetting(const Scene& scene, const RenderOptions& options) {
+    translated([&] {
+        scene_ = checked(scene);
+        window_ = window_of(options.window, scene_.film);
+        goal_ = goal_of(options, scene_.sampling.estimator);
+        check_memory(window_, goal_);
+        tracer_ = options.tracer == Tracer::fast ? integrate::Tracer::fast : integrate::Tracer::reference;
+        options_.threads = in_range("threads", options.threads, 0, kMostThreads);
+        options_.tile = in_range("tile", options.tile, 1, kLargestTile);
+        options_.cancel = &cancel_;
+        if (options.on_progress) take_progress(options.on_progress);
+        stop_.emplace(options.stop, [this] { cancel_.request(); });
+    });
+}
+
+// What the callback throws must not pass through the tasks, and is not to be taken for an error of the library's own.
+void RenderSetting::take_progress(const std::function<void(const Progress&)>& on_progress) {
+    options_.on_progress = [this, on_progress](const render::Progress& progress) {
+        if (callback_failure_) return;
+        try {
+            on_progress({.fraction = progress.fraction,
+                         .rays = progress.rays,
+                         .elapsed = std::chrono::duration<double>(progress.seconds),
+                         .expected = std::chrono::duration<double>(progress.predicted_seconds())});
+        } catch (...) {
+            callback_failure_ = std::current_exception();
+            cancel_.request();
+        }
+    };
+}
+
+RenderReport report_of(const render::ProgressiveResult& result) {
+    const integrate::Counters& counters = result.render.counters;
+    RenderReport report;
+    report.is_complete = !result.render.cancelled;
+    report.passes = result.passes;
+    report.finished_pixels = result.render.finished_pixels;
+    report.rays = counters.rays;
+    report.shadow_rays = counters.shadow_rays;
+    report.hits = counters.hits;
+    report.unresolved_rays = counters.unresolved_rays;
+    report.noise_evaluations = counters.noise_evaluations;
+    report.steps = counters.steps;
+    report.threads = result.render.threads;
+    report.elapsed = std::chrono::duration<double>(result.render.seconds);
+    report.cpu_time = std::chrono::duration<double>(result.render.cpu_seconds);
+    if (result.error) report.noise_rmse = result.error->rmse;
+    return report;
+}
+
+}  // namespace strata

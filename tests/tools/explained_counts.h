@@ -1,0 +1,66 @@
+// Whether a render's counts lie where `strata explain` says.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "src/render/estimator.h"
+#include "src/integrate/make_image.h"
+#include "src/render/render.h"
+#include "src/scene/builtin.h"
+#include "src/scene/toml_reader.h"
+#include "tools/explain/prediction.h"
+
+namespace strata::tools::testing {
+
+// Counts of one render within their intervals.
+struct Verdicts {
+    int counts = 0, within = 0;
+    double widest = 0.0;  // half of an interval over its count
+
+    void judge(const std::string& what, const std::string& name, const std::optional<CountEstimate>& between,
+               std::uint64_t count) {
+        REQUIRE(between.has_value());
+        const auto actual = static_cast<double>(count);
+        const bool holds = between->low <= actual && actual <= between->high;
+        ++counts;
+        within += holds;
+        const double half = actual > 0.0 ? 0.5 * (between->high - between->low) / actual : 0.0;
+        widest = std::max(widest, half);
+        MESSAGE(what, " ", name, ": ", between->value / std::max(actual, 1.0), ", within ", half,
+                std::string(holds ? "" : " - NOT within"));
+    }
+};
+
+inline void judge(const std::string& name, const scene::Scene& scene, Verdicts& verdicts) {
+    const render::Window window{0, 0, scene.film.width, scene.film.height};
+    const CountsBetween between =
+        predict(scene, window, {.tracer = integrate::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = true}).between;
+    const auto image = integrate::make_image(scene);
+    const integrate::Counters actual =
+        render::render(*image, render::Estimator(render::estimator_settings(scene)), window).counters;
+    const std::string what = name + ' ' + std::to_string(scene.film.width) + " N = " + std::to_string(scene.sampling.N);
+    verdicts.judge(what, "shadow rays", between.shadow_rays, actual.shadow_rays);
+    verdicts.judge(what, "hits", between.hits, actual.hits);
+    verdicts.judge(what, "noise evaluations", between.noise_evaluations, actual.noise_evaluations);
+    verdicts.judge(what, "steps", between.steps, actual.steps);
+    verdicts.judge(what, "executed lanes", between.executed_lanes, actual.executed_lanes);
+}
+
+inline scene::Scene builtin_of_size(const scene::BuiltinScene& builtin, int width, int N) {
+    scene::Scene scene = scene::read_scene(builtin.text, builtin.name);
+    scene.film.width = width;
+    scene.film.height = width * 9 / 16;
+    scene.sampling.N = N;
+    return scene;
+}
+
+// Of intervals that hold 99 times in 100.
+inline void conclude(const Verdicts& verdicts) {
+    MESSAGE(verdicts.within, " of ", verdicts.counts, " within; the widest interval is +-", verdicts.widest);
+    CHECK(verdicts.within >= verdicts.counts * 99 / 100);
+}
+
+}  // namespace strata::tools::testing
