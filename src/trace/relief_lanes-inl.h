@@ -359,8 +359,8 @@ class LaneNumbers : public noise::ReliefFrame {
         const FloatVec xx = hn::Mul(hn::MulAdd(y.value, y.value, set(c * c)), inverse3);
         const FloatVec yy = hn::Mul(hn::MulAdd(x.value, x.value, set(c * c)), inverse3);
         const FloatVec xy = hn::Neg(hn::Mul(hn::Mul(x.value, y.value), inverse3));
-        return {of_two(x, y, hn::Mul(x.value, at.inverse), xx, xy, bend),
-                of_two(x, y, hn::Mul(y.value, at.inverse), xy, yy, bend)};
+        return {limited(of_two(x, y, hn::Mul(x.value, at.inverse), xx, xy, bend), set(-1.0f), set(1.0f)),
+                limited(of_two(x, y, hn::Mul(y.value, at.inverse), xy, yy, bend), set(-1.0f), set(1.0f))};
     }
 
     // R - c.
@@ -370,29 +370,11 @@ class LaneNumbers : public noise::ReliefFrame {
                       hn::Mul(at.inverse_least, set(1.001f)));
     }
 
-    // whole * share for a share in [0, 1] and a whole no less than 0. In balls over which the product's own bounds
-    // allow more than the whole has, it is somewhere between 0 and the whole.
+    // whole * share for a share in [0, 1] and a whole no less than 0.
     HWY_INLINE Number part_of(const Number& whole, const Number& share) const {
-        Number part = product(whole, share);
-        const FloatVec zero = hn::Zero(FloatTag()), radius = points_.radius;
+        const FloatVec radius = points_.radius;
         const FloatVec top = hn::MulAdd(length(whole.gradient), radius, hn::Add(whole.value, whole.up.at(radius)));
-        const FloatVec turn = hn::Mul(length(part.gradient), radius);
-        const FloatVec above = hn::Max(hn::Sub(top, part.value), zero), below = hn::Max(part.value, zero);
-        const auto loose_up = hn::Gt(hn::Add(turn, part.up.at(radius)), above);
-        const auto loose_down = hn::Gt(hn::Add(turn, part.down.at(radius)), below);
-        const auto loose = hn::Or(loose_up, loose_down);
-        // Without the gradient, of which the bound that is kept then takes care.
-        const FloatVec steep = length(part.gradient);
-        Slack up = part.up, down = part.down;
-        up.e1 = hn::Add(up.e1, steep);
-        down.e1 = hn::Add(down.e1, steep);
-        up = choose(hn::Gt(up.at(radius), above), {above, zero, zero}, up);
-        down = choose(hn::Gt(down.at(radius), below), {below, zero, zero}, down);
-        part.up = choose(loose, up, part.up);
-        part.down = choose(loose, down, part.down);
-        part.gradient = {hn::IfThenZeroElse(loose, part.gradient.x), hn::IfThenZeroElse(loose, part.gradient.y),
-                         hn::IfThenZeroElse(loose, part.gradient.z)};
-        return finished(part);
+        return limited(product(whole, share), hn::Zero(FloatTag()), top);
     }
 
     // 1 / (1 + u^2 + v^2)^2, u and v the scaled coordinates; the second derivative by them is at most 4, and
@@ -444,7 +426,7 @@ class LaneNumbers : public noise::ReliefFrame {
             const float off = static_cast<float>(kStripeError * (1.0 + of.wave));
             widen(here, hn::MulAdd(set(off), turn0, set(off)),
                   hn::Mul(set(off * static_cast<float>(1.0 + of.wave)), hn::Add(place.e1, turn1)));
-            return finished(here);
+            return limited(finished(here), set(-1.0f), set(1.0f));
         };
         return {wave_of(sample.c, sample.c_x, sample.c_z, sample.c_dx, sample.c_dz),
                 wave_of(sample.s, sample.s_x, sample.s_z, sample.s_dx, sample.s_dz)};
@@ -506,6 +488,27 @@ class LaneNumbers : public noise::ReliefFrame {
                          hn::MulAdd(set(kCurveError), hn::Abs(value), set(kCurveError))),
               hn::Mul(tilt, hn::Add(kx, ky)));
         return finished(result);
+    }
+
+    // x, which is known to lie in [low, high]: in balls over which its own bounds allow more on a side, these bound it
+    // there, without a gradient.
+    HWY_INLINE Number limited(Number x, FloatVec low, FloatVec high) const {
+        const FloatVec zero = hn::Zero(FloatTag()), radius = points_.radius;
+        const FloatVec off = set(kCurveError);  // values are rounded
+        const FloatVec above = hn::Max(hn::Add(hn::Sub(high, x.value), off), off);
+        const FloatVec below = hn::Max(hn::Add(hn::Sub(x.value, low), off), off);
+        const FloatVec steep = length(x.gradient), turn = hn::Mul(steep, radius);
+        const auto loose =
+            hn::Or(hn::Gt(hn::Add(turn, x.up.at(radius)), above), hn::Gt(hn::Add(turn, x.down.at(radius)), below));
+        const auto side = [&](Slack own, FloatVec most) HWY_ATTR {
+            own.e1 = hn::Add(own.e1, steep);
+            return choose(hn::Gt(own.at(radius), most), {most, zero, zero}, own);
+        };
+        x.up = choose(loose, side(x.up, above), x.up);
+        x.down = choose(loose, side(x.down, below), x.down);
+        x.gradient = {hn::IfThenZeroElse(loose, x.gradient.x), hn::IfThenZeroElse(loose, x.gradient.y),
+                      hn::IfThenZeroElse(loose, x.gradient.z)};
+        return x;
     }
 
     // result + slope (x - its value), with x's bounds.

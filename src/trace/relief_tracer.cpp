@@ -85,7 +85,7 @@ HWY_INLINE ReliefStep relief_step(const Field& field, const ReliefPlan& plan, Pa
     const auto settled = hn::And(unsure, whole);
     if (!hn::AllFalse(d, settled)) {
         settle_relief(field, packet, x, settled, step.f, counters);
-        lower = hn::IfThenElse(settled, hn::Mul(step.f, set(1.0f - 0x1p-19f)), lower);
+        lower = hn::IfThenZeroElse(settled, lower);  // what is known of the point says nothing of those about it
         step.is_hit = hn::Or(step.is_hit, hn::And(settled, hn::Le(step.f, zero)));
         unsure = hn::AndNot(whole, unsure);
     }

@@ -182,10 +182,10 @@ class ReliefOracle {
     double steepest(const std::string& name, const noise::Fill&) const { return slope_of(terms_.at(name).of.front()); }
 
     double read(const std::string& name, const noise::Gullies& node, const Vec& p) const {
-        const std::string& of = terms_.at(name).of.front();
-        const double step = 0.05 * node.size, base = value_of(of, p);
-        double gx = (value_of(of, {p[0] + step, p[1], p[2]}) - base) / step;
-        double gz = (value_of(of, {p[0], p[1], p[2] + step}) - base) / step;
+        const std::string& guide = terms_.at(name).of.back();
+        const double step = 0.15 * node.size, base = value_of(terms_.at(name).of.front(), p), here = value_of(guide, p);
+        double gx = (value_of(guide, {p[0] + step, p[1], p[2]}) - here) / step;
+        double gz = (value_of(guide, {p[0], p[1], p[2] + step}) - here) / step;
         double height = base;
         for (const OracleOctave& o : octaves_.at(name).front()) {
             const double steep = std::hypot(gx, gz, 0.08), slope = (steep - 0.08) / node.steepest;
