@@ -26,7 +26,7 @@ constexpr const char* kTracer = "fast";
 
 void write_part(PlannedFiles& files, const StripJob& job, const StripSource& source,
                 const std::filesystem::path& path) {
-    image::WriteOptions options{.exposure = 0, .exr_format = image::ExrFormat::floating};
+    image::WriteOptions options{.exr_format = image::ExrFormat::floating};
     image::Metadata metadata;
     if (source.scene && source.file.empty()) {
         metadata = picture_metadata(*source.scene, job.window, kTracer, "float");
@@ -170,7 +170,7 @@ void add_strip_command(Command& program, int& exit_code) {
         ->type_name("TARGET");
     command->add_flag("--quiet", request->quiet, "No progress or summary");
     command->footer(
-        "With --scene only the crop is rendered. Pictures are shown with the scene's exposure, or that of the first\n"
+        "With --scene only the crop is rendered. Pictures are shown with the scene's exposure and tone, or those of the first\n"
         "picture. Errors are of linear radiance, over all channels. EXR, and TIFF in floating point, are linear. "
         "Whole\n"
         "numbers are sRGB codes unless the file says otherwise (gAMA, cICP, an ICC profile): they are decoded and "

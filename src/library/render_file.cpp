@@ -45,7 +45,7 @@ FileRender::FileRender(RenderSetting& setting, const fs::path& file, const FileO
     image::check_writable(file);
     const bool is_half = options.exr_format == ExrFormat::half;
     shape_ = {frame.width, frame.height, w.x0, w.y0, w.x1, w.y1};
-    write_ = {.exposure = frame.exposure,
+    write_ = {.colour = image::colour_out(frame),
               .exr_format = is_half ? image::ExrFormat::half : image::ExrFormat::floating,
               .exr_layout = options.tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic};
     metadata_ =

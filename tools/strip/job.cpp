@@ -285,7 +285,10 @@ StripJob prepare_strip(const StripRequest& request) {
     job.rmse = request.rmse;
     job.parts = request.parts;
     const auto& first_scene = job.columns.front().scene;
-    job.exposure = loaded ? loaded->scene.film.exposure : first_scene ? first_scene->film.exposure : 0.0;
+    if (loaded)
+        job.colour = image::colour_out(loaded->scene.film);
+    else if (first_scene)
+        job.colour = image::colour_out(first_scene->film);
     job.title = request.title.value_or(loaded ? loaded->scene.title : "");
     job.caption = request.caption.value_or(default_caption(job));
     if (loaded) job.scene_text = scene::print_scene(loaded->scene);

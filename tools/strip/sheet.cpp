@@ -9,6 +9,7 @@
 #include "src/image/compare.h"
 #include "src/image/difference.h"
 #include "src/image/sheet.h"
+#include "src/scene/enum_names.h"
 
 namespace strata::tools {
 
@@ -66,7 +67,7 @@ image::Canvas draw_strip(const StripJob& job) {
     for (const StripSource& column : job.columns) {
         sheet.column_labels.push_back(column.label);
         sheet.rows.front().push_back(
-            {image::magnify(image::to_canvas(column.picture, job.exposure), job.zoom), "", false});
+            {image::magnify(image::to_canvas(column.picture, job.colour), job.zoom), "", false});
     }
     const StripSource* reference = reference_of(job);
     if (reference == nullptr) return image::compose(sheet);
@@ -91,7 +92,9 @@ image::Metadata strip_metadata(const StripJob& job) {
     if (const StripSource* reference = reference_of(job)) metadata.set("strata:reference", reference->name);
     metadata.set("strata:crop", fmt::format("{},{},{},{}", w.x0, w.y0, w.x1, w.y1));
     metadata.set("strata:zoom", job.zoom);
-    metadata.set("strata:exposure", job.exposure);
+    metadata.set("strata:exposure", job.colour.exposure);
+    if (job.colour.tone != scene::ToneCurve::none)
+        metadata.set("strata:tone", std::string(scene::name_of(job.colour.tone)));
     metadata.set("strata:simd_target", noise::simd_target());
     // Not the scene's own entry: a strip is no picture that could be rendered again from it.
     if (!job.scene_text.empty()) metadata.set("strata:columns_scene", job.scene_text);
