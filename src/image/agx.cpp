@@ -8,26 +8,23 @@
 namespace strata::image {
 namespace {
 
-// The published curve's slope at its pivot, mid grey, where it is steepest, and the power of both its ends.
-constexpr double kSlope = 2.4;
+// The published curve: its slope at the pivot, mid grey, where it is steepest, and the powers of its two ends.
+constexpr double kSlope = 2.0, kToePower = 3.0, kShoulderPower = 3.25;
 
 // The sigmoid's values are what a display of this power is sent.
 constexpr double kDisplayPower = 2.2;
 
-// Where mid grey lies on the axis of stops, and the value that a display shows as mid grey: 0.18^(1/2.2).
+// Where mid grey lies on the axis of stops, and the value that a display shows as mid grey: 0.18^(1/2.2). The published
+// curve has 0.5 there, which is a quarter of a stop brighter: here exposures mean the same with the curve as without.
 constexpr double kPivotX = -kAgxDarkest / (kAgxBrightest - kAgxDarkest);
 constexpr double kPivotY = 0.4586564468643811;
 
-// t / (1 + t^(3/2))^(2/3): straight at 0, and 1 far away.
-double bend(double t) {
-    const double root = std::cbrt(1.0 + t * std::sqrt(t));
-    return t / (root * root);
-}
+// t / (1 + t^p)^(1/p): straight at 0, and 1 far away.
+double bend(double t, double power) { return t / std::pow(1.0 + std::pow(t, power), 1.0 / power); }
 
-// The scale s at which s bend(rise / s) is `height`, less than `rise`: (rise/s)^(3/2) = (rise/height)^(3/2) - 1.
-double scale_for(double rise, double height) {
-    const double root = std::cbrt(std::pow(rise / height, 1.5) - 1.0);
-    return rise / (root * root);
+// The scale s at which s bend(rise / s) is `height`, less than `rise`: (rise/s)^p = (rise/height)^p - 1.
+double scale_for(double rise, double height, double power) {
+    return rise / std::pow(std::pow(rise / height, power) - 1.0, 1.0 / power);
 }
 
 double stops_axis(double light) {
@@ -40,12 +37,13 @@ double stops_axis(double light) {
 
 Agx::Agx(double contrast)
     : slope_(kSlope * contrast),
-      toe_(scale_for(slope_ * kPivotX, kPivotY)),
-      shoulder_(scale_for(slope_ * (1.0 - kPivotX), 1.0 - kPivotY)) {}
+      toe_(scale_for(slope_ * kPivotX, kPivotY, kToePower)),
+      shoulder_(scale_for(slope_ * (1.0 - kPivotX), 1.0 - kPivotY, kShoulderPower)) {}
 
 double Agx::sigmoid(double x) const {
     const double rise = slope_ * (x - kPivotX);
-    const double bent = rise < 0.0 ? -toe_ * bend(-rise / toe_) : shoulder_ * bend(rise / shoulder_);
+    const double bent =
+        rise < 0.0 ? -toe_ * bend(-rise / toe_, kToePower) : shoulder_ * bend(rise / shoulder_, kShoulderPower);
     return std::clamp(kPivotY + bent, 0.0, 1.0);
 }
 

@@ -19,7 +19,7 @@ inline constexpr glm::dvec3 kAgxShare{0.04239892904953146, 0.07843016510486392, 
 
 class Agx {
   public:
-    // The sigmoid's slope at mid grey is 2.4 times contrast, [0.6, 2].
+    // The sigmoid's slope at mid grey is 2 times contrast, [0.7, 2].
     explicit Agx(double contrast = 1.0);
 
     // Display light in [0,1] of light that is not negative, beside which values beyond [0,1] may stand for colours that

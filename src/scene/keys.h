@@ -37,7 +37,7 @@ struct Range {
 // lower contrast would not take agx's sigmoid from black to white.
 inline constexpr Range kWhiteBalance{0.01, 100.0};
 inline constexpr Range kSaturation{0.0, 2.0};
-inline constexpr Range kContrast{0.6, 2.0};
+inline constexpr Range kContrast{0.7, 2.0};
 
 // Vectors that name a direction or an axis may have any length from here up; the square of a shorter one nears the
 // end of double's range.
