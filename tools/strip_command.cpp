@@ -170,9 +170,10 @@ void add_strip_command(Command& program, int& exit_code) {
         ->type_name("TARGET");
     command->add_flag("--quiet", request->quiet, "No progress or summary");
     command->footer(
-        "With --scene only the crop is rendered. Pictures are shown with the scene's exposure and tone, or those of "
-        "the first\n"
-        "picture. Errors are of linear radiance, over all channels. EXR, and TIFF in floating point, are linear. "
+        "With --scene only the crop is rendered. Columns are shown with their own exposure and tone, pictures with "
+        "the\n"
+        "scene's, or those of the first picture. Errors are of linear radiance, over all channels. EXR, and TIFF in "
+        "floating point, are linear. "
         "Whole\n"
         "numbers are sRGB codes unless the file says otherwise (gAMA, cICP, an ICC profile): they are decoded and "
         "their\n"

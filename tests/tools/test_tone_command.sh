@@ -35,6 +35,21 @@ check_pictures() {
     expect 'a strip shows the curve of its first picture' "$(cmp -s linear/s.png curved/s.png; echo $?)" 1
 }
 
+# What a strip of one column shows, as light, so that nothing but its pixels counts.
+shown() { # folder arguments...
+    mkdir "$1"
+    (cd "$1" && "$strata" strip --scene terrain --size 24x13 --simd scalar "${@:2}" --labels x --quiet -o s.png &&
+        "$strata" strip s.png --parts --quiet -o t.png)
+}
+
+check_columns() {
+    shown none --columns 'tone=none'
+    shown column --columns 'tone=agx'
+    shown scene --tone agx --columns 'N=4'
+    expect_same_file 'a column shows its own curve as it does the scene'"'"'s' column/t-1.exr scene/t-1.exr
+    expect 'which is another picture' "$(cmp -s none/t-1.exr column/t-1.exr; echo $?)" 1
+}
+
 check_refusals() {
     "$strata" render "${tiny[@]}" --tone agx -o agx.png -o agx.exr -o agx.tif
     "$strata" render "${tiny[@]}" --set film.saturation=0.5 -o pale.png
@@ -63,4 +78,4 @@ check_sweep() {
     expect 'and have equal errors' "$(awk -F, 'NR>1{print $9}' curves/sweep.csv | sort -u | wc -l | tr -d ' ')" 1
 }
 
-run_groups check_pictures check_refusals check_sweep
+run_groups check_pictures check_columns check_refusals check_sweep

@@ -22,6 +22,11 @@ const StripSource* reference_of(const StripJob& job) {
     return job.reference ? &*job.reference : nullptr;
 }
 
+// Pictures from files are all shown alike; a rendered one may have been asked for with colours of its own.
+image::ColourOut colour_of(const StripJob& job, const StripSource& column) {
+    return column.file.empty() ? image::colour_out(column.scene->film) : job.colour;
+}
+
 std::string rmse_text(const image::Comparison& comparison) {
     std::string text = fmt::format("RMSE {:#.3g}", comparison.rmse);
     if (comparison.not_finite > 0) text += fmt::format("\n{} values not finite", comparison.not_finite);
@@ -67,7 +72,7 @@ image::Canvas draw_strip(const StripJob& job) {
     for (const StripSource& column : job.columns) {
         sheet.column_labels.push_back(column.label);
         sheet.rows.front().push_back(
-            {image::magnify(image::to_canvas(column.picture, job.colour), job.zoom), "", false});
+            {image::magnify(image::to_canvas(column.picture, colour_of(job, column)), job.zoom), "", false});
     }
     const StripSource* reference = reference_of(job);
     if (reference == nullptr) return image::compose(sheet);
