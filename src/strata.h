@@ -211,9 +211,10 @@ struct FileOptions {
     bool tiled = false;  // EXR in tiles of 64 x 64, as from 4096 pixels on either side without being asked
 };
 
-// Renders into a file, by its extension .exr (linear), .png, .tif, .tiff, .jpg or .jpeg (with the scene's exposure and
-// the sRGB curve): the same bytes as `strata render -o FILE`. One pass is written while it is rendered, so that memory
-// does not grow with the height. The file appears whole when all is done; of a stopped render nothing is written.
+// Renders into a file, by its extension .exr (linear), .png, .tif, .tiff, .jpg or .jpeg (with the scene's exposure,
+// tone curve and the like, and the sRGB curve): the same bytes as `strata render -o FILE`. One pass is written while it
+// is rendered, so that memory does not grow with the height. The file appears whole when all is done; of a stopped
+// render nothing is written.
 RenderReport render_file(const Scene& scene, const std::filesystem::path& file, const RenderOptions& options = {},
                          const FileOptions& file_options = {});
 

@@ -130,9 +130,8 @@ class Animator {
         if (job_.columns.empty()) {
             image::WriteOptions options = job_.write;
             options.frames_per_second = frame_rate(scenes.front());
-            write_each(todo, [&](const fs::path& path) {
-                image::write_picture(path, pictures.front(), metadata, options);
-            });
+            write_each(todo,
+                       [&](const fs::path& path) { image::write_picture(path, pictures.front(), metadata, options); });
             return;
         }
         std::vector<image::Canvas> canvases;
@@ -141,7 +140,7 @@ class Animator {
             if (!not_finite.empty()) {
                 throw image::ImageError(fmt::format("frame {}, picture {}: {}", todo.frame, i + 1, not_finite));
             }
-            canvases.push_back(image::to_canvas(pictures[i], scenes[i].film.exposure));
+            canvases.push_back(image::to_canvas(pictures[i], image::colour_out(scenes[i].film)));
         }
         const image::Canvas sheet = side_by_side(job_.columns, std::move(canvases));
         write_each(todo, [&](const fs::path& path) { image::write_canvas(path, sheet, metadata); });

@@ -18,7 +18,8 @@ ForeignPicture read_foreign_picture(const std::filesystem::path& path, const std
         image::refuse_damaged(path);
         const auto text = image::read_metadata(path, image::kSceneKey);
         if (text) picture.scene = scene::read_scene(*text, typed);
-        picture.linear = image::read_linear(path, picture.scene ? picture.scene->film.exposure : 0.0);
+        picture.linear =
+            image::read_linear(path, picture.scene ? image::colour_out(picture.scene->film) : image::ColourOut());
     } catch (const image::ImageError& error) {
         throw UsageError(error.what());
     }

@@ -19,7 +19,6 @@ namespace {
 
 using Values = std::vector<std::pair<std::string, std::string>>;  // of every key, in the order of describe()
 
-constexpr std::string_view kNone = "\"none\"";
 constexpr std::array<std::string_view, 3> kAlways{"sampling.estimator", "sampling.N", "sampling.m"};
 
 Values values_of(scene::Scene scene) {
@@ -34,6 +33,10 @@ Values values_of(scene::Scene scene) {
         }
     }
     return values;
+}
+
+bool is_no_antialiasing(const Values::value_type& setting) {
+    return setting.first == "sampling.estimator" && setting.second == "\"none\"";
 }
 
 std::string setting_text(const std::string& full_name, std::string value) {
@@ -54,7 +57,7 @@ std::vector<std::string> labels_of(const std::vector<std::optional<scene::Scene>
     const auto differs = [&](std::size_t key) {
         std::set<std::string> values;
         for (const Values& v : all)
-            if (!v.empty() && !v[key].second.empty() && v[key].second != kNone) values.insert(v[key].second);
+            if (!v.empty() && !v[key].second.empty() && !is_no_antialiasing(v[key])) values.insert(v[key].second);
         return values.size() > 1;
     };
 
@@ -65,7 +68,7 @@ std::vector<std::string> labels_of(const std::vector<std::optional<scene::Scene>
         for (std::size_t i = 0; i < values.size(); ++i) {
             const auto& [key, value] = values[i];
             if (value.empty() || key == "title") continue;
-            if (value == kNone || differs(i)) parts.push_back(setting_text(key, value));
+            if (is_no_antialiasing(values[i]) || differs(i)) parts.push_back(setting_text(key, value));
             if (std::ranges::find(kAlways, key) != kAlways.end()) always.push_back(setting_text(key, value));
         }
         labels.push_back(fmt::format("{}", fmt::join(parts.empty() ? always : parts, ", ")));

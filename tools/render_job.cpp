@@ -261,7 +261,7 @@ Job prepare(const RenderRequest& request) {
     check_stream_format(request);
     const std::string format = choose(channels_format(request), job.loaded.exr_format, "half");
     const bool is_tiled = request.tiled || job.loaded.is_tiled;
-    job.write = {.exposure = job.loaded.scene.film.exposure,
+    job.write = {.colour = image::colour_out(job.loaded.scene.film),
                  .exr_format = parse_format(format),
                  .exr_layout = is_tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic,
                  .frames_per_second = frame_rate(job.loaded.scene)};

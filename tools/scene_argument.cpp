@@ -107,7 +107,7 @@ struct KeyOption {
     const char* meaning;
 };
 
-constexpr std::array<KeyOption, 8> kKeyOptions{{
+constexpr std::array<KeyOption, 9> kKeyOptions{{
     {"-N,--samples", "sampling.N", "N", "Samples a side, N*N a pixel, 1 to 64"},
     {"-m,--order", "sampling.m", "M", "Order of the B-spline filter, 1 (box) to 100"},
     {"--estimator", "sampling.estimator", "NAME",
@@ -117,6 +117,7 @@ constexpr std::array<KeyOption, 8> kKeyOptions{{
     {"--frame", "shutter.frame", "K", "Number of the frame, from 0"},
     {"--fps", "shutter.fps", "RATE", "Frames a second; a fraction, too: 24000/1001"},
     {"--exposure", "film.exposure", "STOPS", "Brightening of PNG, TIFF and JPEG in stops, -64 to 64"},
+    {"--tone", "film.tone", "NAME", "Tone curve of PNG, TIFF and JPEG: none, reinhard or agx"},
 }};
 
 // "--seed" of "--seed", "-N" of "-N,--samples".

@@ -11,7 +11,7 @@ namespace strata::tools {
 std::string settings_mark(const scene::Scene& scene, const render::Window& window, const std::string& tracer) {
     scene::Scene costly = scene;
     costly.title.clear();
-    costly.film.exposure = 0.0;
+    costly.film = costly.film.without_colour();
     const std::string text = fmt::format("{}\n{},{},{},{}\n{}", scene::print_scene(costly), window.x0, window.y0,
                                          window.x1, window.y1, tracer);
     std::uint64_t hash = 0xcbf29ce484222325ull;

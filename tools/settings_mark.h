@@ -8,8 +8,8 @@
 
 namespace strata::tools {
 
-// 16 hexadecimal digits that differ, but for chance, when scene, window or tracer do. Title and exposure are left out:
-// they cost nothing. 64-bit FNV-1a of the printed scene.
+// 16 hexadecimal digits that differ, but for chance, when scene, window or tracer do. Title and what colours the
+// picture, exposure to tone curve, are left out: they cost nothing. 64-bit FNV-1a of the printed scene.
 std::string settings_mark(const scene::Scene& scene, const render::Window& window, const std::string& tracer);
 
 }  // namespace strata::tools

@@ -26,7 +26,7 @@ constexpr const char* kTracer = "fast";
 
 void write_part(PlannedFiles& files, const StripJob& job, const StripSource& source,
                 const std::filesystem::path& path) {
-    image::WriteOptions options{.exposure = 0, .exr_format = image::ExrFormat::floating};
+    image::WriteOptions options{.exr_format = image::ExrFormat::floating};
     image::Metadata metadata;
     if (source.scene && source.file.empty()) {
         metadata = picture_metadata(*source.scene, job.window, kTracer, "float");
@@ -170,14 +170,12 @@ void add_strip_command(Command& program, int& exit_code) {
         ->type_name("TARGET");
     command->add_flag("--quiet", request->quiet, "No progress or summary");
     command->footer(
-        "With --scene only the crop is rendered. Pictures are shown with the scene's exposure, or that of the first\n"
-        "picture. Errors are of linear radiance, over all channels. EXR, and TIFF in floating point, are linear. "
-        "Whole\n"
-        "numbers are sRGB codes unless the file says otherwise (gAMA, cICP, an ICC profile): they are decoded and "
-        "their\n"
-        "exposure undone; what they clipped stays clipped. Grey is shown as grey, alpha over black, and pixels that "
-        "are\n"
-        "not finite in cyan, with a warning.\n"
+        "With --scene only the crop is rendered. Columns are shown with their own exposure and tone, pictures with\n"
+        "the scene's, or those of the first picture. Errors are of linear radiance, over all channels. EXR, and TIFF\n"
+        "in floating point, are linear. Whole numbers are sRGB codes unless the file says otherwise (gAMA, cICP, an\n"
+        "ICC profile): they are decoded and their exposure undone; what they clipped stays clipped, and codes behind\n"
+        "a tone curve are refused. Grey is shown as grey, alpha over black, and pixels that are not finite in cyan,\n"
+        "with a warning.\n"
         "  strata strip a.exr b.exr --crop 100,60,140,90 --zoom 8 -o strip.png\n"
         "  strata strip --scene terrain --columns \"none; N=2; N=10\" --crop 600,330,640,360 --reference N=10 --rmse\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, scene or picture, 129, 130 or 143 "

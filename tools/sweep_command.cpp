@@ -144,7 +144,7 @@ void add_sweep_command(Command& program, int& exit_code) {
         "Automatic reference: two shared-sobol pictures of different seeds, reference_*_a.exr and _b.exr, and their "
         "mean; "
         "one\n"
-        "for each filter and scene, since another order m (or any key but N, estimator, seed and exposure) has "
+        "for each filter and scene, since another order m (or any key but N, estimator, seed and colours) has "
         "another\n"
         "ideal picture; `super` is held against order 1, `none` against the filter of its row. The reference's own\n"
         "RMSE is half that between its halves; errors within 3 times of it are marked *.\n"

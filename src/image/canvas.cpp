@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "src/image/canvas_buffer.h"
 #include "src/image/dither.h"
@@ -14,7 +13,6 @@
 #include "src/image/library.h"
 #include "src/image/not_finite.h"
 #include "src/image/output_file.h"
-#include "src/image/srgb.h"
 
 namespace strata::image {
 namespace {
@@ -61,19 +59,22 @@ Canvas make_canvas(int width, int height, const Colour& colour) {
     return canvas;
 }
 
-Canvas to_canvas(const Picture& linear, double exposure) {
-    const double scale = std::exp2(std::clamp(exposure, -1000.0, 1000.0));
+Canvas to_canvas(const Picture& linear, const ColourOut& colour) {
+    const ColourEncoder encode(colour);
     Canvas canvas = blank(linear.width(), linear.height());
     const std::array<float, 3> not_finite = values_of(kNotFiniteColour);
     for (std::size_t i = 0; i < linear.pixels(); ++i) {
         const auto width = static_cast<std::size_t>(linear.width());
         const int x = linear.x0 + static_cast<int>(i % width), y = linear.y0 + static_cast<int>(i / width);
-        const bool is_shown = is_finite_pixel(linear, i);
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double light = is_shown ? linear.rgb[3 * i + c] * scale : 0.0;
-            // Codes already here, from the double: a float between two codes could fall to the other side later.
-            const int code = dithered_code(encode_srgb(light), x, y);
-            canvas.rgb[3 * i + c] = is_shown ? static_cast<float>(code) * kCode : not_finite[c];
+        if (!is_finite_pixel(linear, i)) {
+            std::ranges::copy(not_finite, canvas.rgb.begin() + static_cast<std::ptrdiff_t>(3 * i));
+            continue;
+        }
+        const glm::dvec3 encoded = encode(&linear.rgb[3 * i]);
+        // Codes already here, from the double: a float between two codes could fall to the other side later.
+        for (int c = 0; c < 3; ++c) {
+            const int code = dithered_code(encoded[c], x, y);
+            canvas.rgb[3 * i + static_cast<std::size_t>(c)] = static_cast<float>(code) * kCode;
         }
     }
     return canvas;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "src/image/colour_out.h"
 #include "src/image/metadata.h"
 #include "src/image/picture.h"
 
@@ -39,9 +40,9 @@ Canvas make_canvas(int width, int height, const Colour& colour);
 // Of a pixel that is not finite, which only pictures of other programs have.
 inline constexpr Colour kNotFiniteColour{0.0f, 1.0f, 1.0f};
 
-// The crop of a picture of linear radiance, as a PNG with this exposure (stops, finite) would show it, code for code;
-// pixels that are not finite in kNotFiniteColour.
-Canvas to_canvas(const Picture& linear, double exposure);
+// The crop of a picture of linear radiance, as a PNG with these colours would show it, code for code; pixels that are
+// not finite in kNotFiniteColour.
+Canvas to_canvas(const Picture& linear, const ColourOut& colour = {});
 
 // Throws ImageError, naming both, when the box is empty or not inside the canvas.
 Canvas crop(const Canvas& canvas, const Box& box);

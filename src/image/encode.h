@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "src/image/colour_out.h"
 #include "src/image/format.h"
 #include "src/image/metadata.h"
 #include "src/image/picture.h"
@@ -26,7 +27,7 @@ struct FrameRate {
 };
 
 struct WriteOptions {
-    double exposure = 0.0;  // stops, finite; EXR ignores it and stays linear
+    ColourOut colour{};  // EXR ignores it and stays linear
     ExrFormat exr_format = ExrFormat::half;
     ExrLayout exr_layout = ExrLayout::automatic;
     std::vector<std::string>
@@ -46,13 +47,13 @@ void check_encodable(const std::filesystem::path& path, const PictureShape& shap
                      const WriteOptions& options);
 
 // EXR: linear, zip, in scanlines or tiles of 64x64; TIFF: 16 bits, zip; PNG: 8 bits; JPEG: 8 bits, quality 95, no
-// chroma subsampling. The last three are multiplied by 2^exposure, clamped and passed through sRGB's transfer function;
-// 16 bits are rounded to the nearest code, 8 are dithered by the pixel's place in the frame (dither.h). EXR and TIFF
-// keep the crop as data window and the frame as display window; PNG and JPEG hold the crop alone. Finite radiance
-// beyond the largest half (65504) becomes that. EXR and PNG carry each metadata entry under its name, TIFF and JPEG all
-// of them packed into the image description; a digest of the file's bytes (digest.h) is one of them. Throws ImageError,
-// which names `path`, for NaN or infinite pixels, for metadata too long for the format (60,000 bytes in TIFF and JPEG)
-// and for a picture that breaks its own rules. Only the extension and the name of `path` are used.
+// chroma subsampling. The last three get the colours of colour_out.h, are clamped and passed through sRGB's transfer
+// function; 16 bits are rounded to the nearest code, 8 are dithered by the pixel's place in the frame (dither.h). EXR
+// and TIFF keep the crop as data window and the frame as display window; PNG and JPEG hold the crop alone. Finite
+// radiance beyond the largest half (65504) becomes that. EXR and PNG carry each metadata entry under its name, TIFF and
+// JPEG all of them packed into the image description; a digest of the file's bytes (digest.h) is one of them. Throws
+// ImageError, which names `path`, for NaN or infinite pixels, for metadata too long for the format (60,000 bytes in
+// TIFF and JPEG) and for a picture that breaks its own rules. Only the extension and the name of `path` are used.
 std::vector<unsigned char> encode(const std::filesystem::path& path, const Picture& picture, const Metadata& metadata,
                                   const WriteOptions& options);
 

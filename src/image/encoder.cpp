@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <limits>
 
+#include "src/image/colour_out.h"
 #include "src/image/dither.h"
 #include "src/image/image_error.h"
 #include "src/image/library.h"
 #include "src/image/library_noise.h"
 #include "src/image/picture_spec.h"
 #include "src/image/png_text.h"
-#include "src/image/srgb.h"
 
 namespace strata::image {
 namespace {
@@ -33,29 +33,29 @@ void check_shape(const std::filesystem::path& path, const PictureShape& p) {
     check_size(path, p.width(), p.height());
 }
 
-// Beyond these limits every code is already 0 or the largest; within them no product is 0 * inf.
-double scale_of(double exposure) { return std::exp2(std::clamp(exposure, -1000.0, 1000.0)); }
-
-// The nearest code of 16 bits after exposure and sRGB.
-std::vector<std::uint16_t> quantise(std::span<const float> linear, double exposure) {
+// The nearest code of 16 bits.
+std::vector<std::uint16_t> quantise(std::span<const float> linear, const ColourOut& colour) {
     constexpr double kTop = std::numeric_limits<std::uint16_t>::max();
-    const double scale = scale_of(exposure);
+    const ColourEncoder encode(colour);
     std::vector<std::uint16_t> codes;
     codes.reserve(linear.size());
-    for (const float value : linear)
-        codes.push_back(static_cast<std::uint16_t>(std::lround(encode_srgb(value * scale) * kTop)));
+    for (std::size_t i = 0; i < linear.size(); i += 3) {
+        const glm::dvec3 encoded = encode(&linear[i]);
+        for (int c = 0; c < 3; ++c) codes.push_back(static_cast<std::uint16_t>(std::lround(encoded[c] * kTop)));
+    }
     return codes;
 }
 
 // Codes of 8 bits, dithered by the pixels' places in the frame: rows of `width` pixels, the first at (x0,y0).
-std::vector<std::uint8_t> dither(std::span<const float> linear, double exposure, int x0, int y0, int width) {
-    const double scale = scale_of(exposure);
+std::vector<std::uint8_t> dither(std::span<const float> linear, const ColourOut& colour, int x0, int y0, int width) {
+    const ColourEncoder encode(colour);
     std::vector<std::uint8_t> codes;
     codes.reserve(linear.size());
     const std::size_t row = 3 * static_cast<std::size_t>(width);
-    for (std::size_t i = 0; i < linear.size(); ++i) {
+    for (std::size_t i = 0; i < linear.size(); i += 3) {
         const int x = x0 + static_cast<int>(i % row / 3), y = y0 + static_cast<int>(i / row);
-        codes.push_back(static_cast<std::uint8_t>(dithered_code(encode_srgb(linear[i] * scale), x, y)));
+        const glm::dvec3 encoded = encode(&linear[i]);
+        for (int c = 0; c < 3; ++c) codes.push_back(static_cast<std::uint8_t>(dithered_code(encoded[c], x, y)));
     }
     return codes;
 }
@@ -81,7 +81,7 @@ std::vector<Code> round_codes(std::span<const float> values) {
 void check_encodable(const std::filesystem::path& path, const PictureShape& shape, const Metadata& metadata,
                      const WriteOptions& options) {
     check_shape(path, shape);
-    if (!std::isfinite(options.exposure)) fail(path, fmt::format("an exposure of {} stops", options.exposure));
+    if (const auto problem = problem_of(options.colour)) fail(path, *problem);
     make_spec(path, format_of(path), shape, metadata, options);
 }
 
@@ -154,12 +154,12 @@ void Encoder::write_linear(std::span<const float> rgb, std::span<const float> ex
         case Format::exr:
             return write_exr(rgb, extra, rows);
         case Format::tiff:
-            return write(OIIO::TypeDesc::UINT16, quantise(rgb, options_.exposure).data(), rows);
+            return write(OIIO::TypeDesc::UINT16, quantise(rgb, options_.colour).data(), rows);
         case Format::png:
         case Format::jpeg:
             break;
     }
-    const std::vector<std::uint8_t> codes = dither(rgb, options_.exposure, shape_.x0, y, shape_.width());
+    const std::vector<std::uint8_t> codes = dither(rgb, options_.colour, shape_.x0, y, shape_.width());
     write(OIIO::TypeDesc::UINT8, codes.data(), rows);
 }
 

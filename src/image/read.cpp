@@ -170,19 +170,25 @@ Picture read_picture(const fs::path& path) {
     return read_stored(path, opened, colour_channels(path, opened.spec)).picture;
 }
 
-Picture read_linear(const fs::path& path, double exposure) {
+Picture read_linear(const fs::path& path, const ColourOut& written_with) {
     const OpenPicture opened = open_picture(path);
     refuse_damaged(path, opened);
     const Transfer transfer = transfer_of(path, opened.format, opened.spec);
+    const bool is_linear = transfer.curve == Transfer::Curve::linear;
+    const auto obstacle = obstacle_to_light(written_with);
+    if (!is_linear && obstacle)
+        fail(path, fmt::format("{} is in its codes, which are no linear radiance any more; allowed: the same render as "
+                               "EXR, or a PNG, TIFF or JPEG of film.tone none and film.saturation 1",
+                               *obstacle));
     const ColourChannels channels = colour_channels(path, opened.spec);
     StoredPicture stored = read_stored(path, opened, channels);
-    const bool is_linear = transfer.curve == Transfer::Curve::linear;
     if (is_linear && (stored.alpha.empty() || channels.is_associated)) return std::move(stored.picture);
-    const double scale = is_linear ? 1.0 : std::exp2(-exposure);
+    const glm::dvec3 white = is_linear ? glm::dvec3(1.0) : light_of_white(written_with);
     for (std::size_t i = 0; i < stored.picture.rgb.size(); ++i) {
         const double alpha = stored.alpha.empty() ? 1.0 : std::clamp(stored.alpha[i / 3], 0.0f, 1.0f);
         float& value = stored.picture.rgb[i];
-        value = static_cast<float>(light_over_black(transfer, value, alpha, channels.is_associated) * scale);
+        const double light = light_over_black(transfer, value, alpha, channels.is_associated);
+        value = static_cast<float>(light * white[static_cast<int>(i % 3)]);
     }
     return std::move(stored.picture);
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "src/image/colour_out.h"
 #include "src/image/digest.h"
 #include "src/image/metadata.h"
 #include "src/image/picture.h"
@@ -36,10 +37,11 @@ void refuse_damaged(const std::filesystem::path& path);
 Picture read_picture(const std::filesystem::path& path);
 
 // Linear radiance, with alpha that of the picture over black. EXR, and TIFF in floating point, are as stored, NaN and
-// infinity included. Codes, sRGB's unless the file says otherwise (light.h), are decoded, with the exposure (stops,
-// finite) undone that they were written with, unless they are linear; what they clipped to 1 stays there. Throws as
-// read_picture(), and for video's codes of high dynamic range.
-Picture read_linear(const std::filesystem::path& path, double exposure = 0.0);
+// infinity included. Codes, sRGB's unless the file says otherwise (light.h), are decoded, with the exposure and the
+// white balance undone that they were written with, unless they are linear; what they clipped to 1 stays there. Throws
+// as read_picture(), for video's codes of high dynamic range, and for codes that were written with what cannot be
+// undone, a tone curve or a saturation (obstacle_to_light()).
+Picture read_linear(const std::filesystem::path& path, const ColourOut& written_with = {});
 
 // A metadata entry as it was written, or nothing when the picture has none of that name. Throws ImageError for what is
 // no picture.

@@ -2,9 +2,9 @@
 
 #include "src/image/output_file.h"
 #include "src/image/picture_stream.h"
+#include "src/integrate/make_image.h"
 #include "src/library/render_setting.h"
 #include "src/library/translate.h"
-#include "src/integrate/make_image.h"
 #include "tools/picture_metadata.h"
 
 namespace strata {
@@ -45,7 +45,7 @@ FileRender::FileRender(RenderSetting& setting, const fs::path& file, const FileO
     image::check_writable(file);
     const bool is_half = options.exr_format == ExrFormat::half;
     shape_ = {frame.width, frame.height, w.x0, w.y0, w.x1, w.y1};
-    write_ = {.exposure = frame.exposure,
+    write_ = {.colour = image::colour_out(frame),
               .exr_format = is_half ? image::ExrFormat::half : image::ExrFormat::floating,
               .exr_layout = options.tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic};
     metadata_ =

@@ -27,6 +27,9 @@ template <>
 inline constexpr std::array<std::string_view, 2> kEnumNames<BoundKind>{"ball", "box"};
 
 template <>
+inline constexpr std::array<std::string_view, 3> kEnumNames<ToneCurve>{"none", "reinhard", "agx"};
+
+template <>
 inline constexpr std::array<std::string_view, 2> kEnumNames<Interpolation>{"smooth", "linear"};
 
 template <>
@@ -39,6 +42,7 @@ inline constexpr std::array<std::string_view, 9> kEnumNames<EstimatorKind>{
 static_assert(static_cast<std::size_t>(ImageKind::constant) + 1 == kEnumNames<ImageKind>.size());
 static_assert(static_cast<std::size_t>(SurfaceKind::isosurface) + 1 == kEnumNames<SurfaceKind>.size());
 static_assert(static_cast<std::size_t>(BoundKind::box) + 1 == kEnumNames<BoundKind>.size());
+static_assert(static_cast<std::size_t>(ToneCurve::agx) + 1 == kEnumNames<ToneCurve>.size());
 static_assert(static_cast<std::size_t>(Interpolation::linear) + 1 == kEnumNames<Interpolation>.size());
 static_assert(static_cast<std::size_t>(SkyModel::daylight) + 1 == kEnumNames<SkyModel>.size());
 static_assert(static_cast<std::size_t>(EstimatorKind::shared_sobol) + 1 == kEnumNames<EstimatorKind>.size());

@@ -95,7 +95,16 @@ Section film_section(Film& film) {
                    {count("width", film.width, {1, 65536}, "pixels", "width of the whole frame"),
                     count("height", film.height, {1, 65536}, "pixels", "height of the whole frame"),
                     number("exposure", film.exposure, {-64.0, 64.0}, "stops",
-                           "brightening of 8- and 16-bit pictures; EXR stays linear")});
+                           "brightening of 8- and 16-bit pictures; EXR stays linear"),
+                    choice("tone", film.tone,
+                           "tone curve of 8- and 16-bit pictures: none clips at 1, reinhard keeps hues, agx whitens "
+                           "what is bright as film does; mid grey stays"),
+                    colour("white_balance", film.white_balance, kWhiteBalance,
+                           "factors of 8- and 16-bit pictures, beside exposure"),
+                    number("saturation", film.saturation, kSaturation, "",
+                           "of 8- and 16-bit pictures, about luminance; behind agx's curve, before the others"),
+                    only_if(film.tone == ToneCurve::agx,
+                            number("contrast", film.contrast, kContrast, "", "agx: of the curve at mid grey"))});
 }
 
 Section sampling_section(Sampling& sampling, bool surface) {

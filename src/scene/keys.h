@@ -33,6 +33,12 @@ struct Range {
     double max = 0.0;
 };
 
+// Of the colours that pictures of 8 and 16 bits are given. White balance can be taken back, so no factor is near 0; a
+// lower contrast would not take agx's sigmoid from black to white.
+inline constexpr Range kWhiteBalance{0.01, 100.0};
+inline constexpr Range kSaturation{0.0, 2.0};
+inline constexpr Range kContrast{0.7, 2.0};
+
 // Vectors that name a direction or an axis may have any length from here up; the square of a shorter one nears the
 // end of double's range.
 inline constexpr double kShortestDirection = 1e-12;

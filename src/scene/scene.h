@@ -15,6 +15,7 @@ namespace strata::scene {
 enum class ImageKind { surface, zoneplate, checker, wheel, edge, ramp, constant };
 enum class SurfaceKind { terrain, hyperterrain, planet, isosurface };
 enum class BoundKind { ball, box };
+enum class ToneCurve { none, reinhard, agx };
 enum class Interpolation { smooth, linear };
 enum class SkyModel { gradient, daylight };
 enum class EstimatorKind { none, super, uniform, jittered, stratified, random, sobol, shared, shared_sobol };
@@ -22,7 +23,21 @@ enum class EstimatorKind { none, super, uniform, jittered, stratified, random, s
 struct Film {
     int width = 1280;
     int height = 720;
-    double exposure = 0.0;  // stops, for 8- and 16-bit pictures only; EXR stays linear
+
+    // Of 8- and 16-bit pictures only; EXR stays linear.
+    double exposure = 0.0;  // stops
+    ToneCurve tone = ToneCurve::none;
+    glm::dvec3 white_balance{1.0};  // factors, beside exposure
+    double saturation = 1.0;        // about luminance
+    double contrast = 1.0;          // agx: of its sigmoid at mid grey
+
+    // The same frame with light as it is: for what colour has no part in.
+    Film without_colour() const {
+        Film film;
+        film.width = width;
+        film.height = height;
+        return film;
+    }
 };
 
 struct Sampling {

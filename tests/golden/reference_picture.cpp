@@ -110,7 +110,7 @@ image::Canvas draw_change(const ReferencePicture& expected, const ReferencePictu
 }  // namespace
 
 ReferencePicture reference_of(const image::Picture& picture) {
-    const image::Canvas codes = image::to_canvas(picture, 0.0);
+    const image::Canvas codes = image::to_canvas(picture);
     ReferencePicture reference{picture.width(), picture.height(), {}};
     for (std::size_t i = 0; i < picture.pixels(); ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -165,8 +165,7 @@ PictureChange change_between(const ReferencePicture& expected, const ReferencePi
 std::string leave_pictures(const std::filesystem::path& folder, const image::Picture& render,
                            const ReferencePicture& expected) {
     std::filesystem::create_directories(folder);
-    image::write_canvas(folder / "expected.png",
-                        image::magnify(image::to_canvas(linear_picture(expected), 0.0), kZoom));
+    image::write_canvas(folder / "expected.png", image::magnify(image::to_canvas(linear_picture(expected)), kZoom));
     try {
         image::WriteOptions options;
         options.exr_format = image::ExrFormat::floating;

@@ -49,8 +49,8 @@ TEST_CASE("a canvas shows radiance by the very codes of a PNG with the same expo
     const ScratchFolder folder;
     const Picture picture = random_picture(97, 83, 1.3f);
     for (const double exposure : {0.0, 1.0, -2.5, 0.37, 1e9}) {
-        write_picture(folder / "linear.png", picture, {}, {.exposure = exposure});
-        const Canvas canvas = to_canvas(picture, exposure);
+        write_picture(folder / "linear.png", picture, {}, {.colour = {.exposure = exposure}});
+        const Canvas canvas = to_canvas(picture, {.exposure = exposure});
         write_canvas(folder / "canvas.png", canvas);
         CHECK(read_picture(folder / "linear.png").rgb == canvas.rgb);
         CHECK(read_picture(folder / "canvas.png").rgb == canvas.rgb);
@@ -60,13 +60,13 @@ TEST_CASE("a canvas shows radiance by the very codes of a PNG with the same expo
 TEST_CASE("pixels that are not finite are shown in a colour of their own, and counted") {
     Picture picture = random_picture(3, 3, 1.0f);
     CHECK(describe_not_finite(picture).empty());
-    const Canvas before = to_canvas(picture, 0);
+    const Canvas before = to_canvas(picture);
     picture.rgb[5] = std::numeric_limits<float>::quiet_NaN();
     CHECK(describe_not_finite(picture).find("1 pixel is not finite, first (1,0) = (") == 0);
     picture.rgb[24] = -std::numeric_limits<float>::infinity();
     picture.rgb[25] = std::numeric_limits<float>::infinity();
     CHECK(describe_not_finite(picture).find("2 pixels are not finite, first (1,0) = (") == 0);
-    const Canvas canvas = to_canvas(picture, 0);
+    const Canvas canvas = to_canvas(picture);
     for (int i = 0; i < 9; ++i) {
         const bool is_bad = i == 1 || i == 8;
         CHECK(pixel(canvas, i % 3, i / 3) == (is_bad ? kNotFiniteColour : pixel(before, i % 3, i / 3)));

@@ -147,7 +147,7 @@ TEST_CASE("a crop is dithered as the same pixels of the whole frame, in PNG and 
     for (int y = crop.y0; y < crop.y1; ++y)
         for (int i = 3 * crop.x0; i < 3 * crop.x1; ++i) crop.rgb.push_back(whole.rgb[3 * y * 90 + i]);
     const std::vector<int> all = png_codes(whole), part = png_codes(crop);
-    const Canvas canvas = to_canvas(crop, 0);
+    const Canvas canvas = to_canvas(crop);
     int wrong = 0;
     for (int y = 0; y < crop.height(); ++y) {
         for (int i = 0; i < 3 * crop.width(); ++i) {

@@ -57,7 +57,7 @@ TEST_CASE("a TIFF in floating point is linear, to the bit, beyond 1 and below 0;
     const std::vector<float> wide{-3.5f, 1e30f, 0.18f, 1e-30f, 7.0f, 0.5f};
     write_foreign(folder / "f.tif", {.values = wide});
     CHECK(light_of(folder / "f.tif") == wide);
-    CHECK(read_linear(folder / "f.tif", 1.5).rgb == wide);
+    CHECK(read_linear(folder / "f.tif", {.exposure = 1.5}).rgb == wide);
     write_foreign(folder / "d.tif", {.type = TypeDesc::DOUBLE, .values = wide});  // would be read as zeros
     CHECK(error_of(folder / "d.tif").find("64 bits") != std::string::npos);
     write_foreign(folder / "u.tif", {.type = TypeDesc::UINT16, .values = kRgb});

@@ -61,7 +61,7 @@ TEST_CASE("a streamed picture is the written one, byte by byte, whatever its siz
         for (const ExrLayout layout : {ExrLayout::scanlines, ExrLayout::tiles}) {
             for (const ExrFormat format : {ExrFormat::half, ExrFormat::floating}) {
                 for (const std::string extension : kExtensions) {
-                    const WriteOptions options{.exposure = 0.5, .exr_format = format, .exr_layout = layout};
+                    const WriteOptions options{.colour = {.exposure = 0.5}, .exr_format = format, .exr_layout = layout};
                     write_picture(folder / ("whole" + extension), picture, test_metadata(), options);
                     PictureStream stream(folder / ("streamed" + extension), picture.shape(), test_metadata(), options);
                     CHECK(!fs::exists(folder / ("streamed" + extension)));
@@ -257,7 +257,7 @@ TEST_CASE("what a format does not hold is known without a pixel") {
         CHECK(!refuses(path, shape, {}, {}));
         CHECK(refuses(path, {100, 100, -1, 0, 100, 100}, {}, {}));
         CHECK(refuses(path, {100, 100, 0, 0, 100, 101}, {}, {}));
-        CHECK(refuses(path, shape, {}, {.exposure = std::numeric_limits<double>::infinity()}));
+        CHECK(refuses(path, shape, {}, {.colour = {.exposure = std::numeric_limits<double>::infinity()}}));
     }
     CHECK(refuses("a.tif", shape, long_one, {}));
     CHECK(refuses("a.jpg", shape, long_one, {}));

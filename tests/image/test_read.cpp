@@ -92,13 +92,13 @@ TEST_CASE("linear radiance comes back from every format, the exposure undone") {
     Picture picture = make_picture(16, 16);
     for (std::size_t i = 0; i < picture.rgb.size(); ++i) picture.rgb[i] = static_cast<float>(i) / 768.0f * 0.5f;
     for (const double exposure : {0.0, 0.9, -1.5}) {
-        write_picture(folder / "a.exr", picture, {}, {exposure, ExrFormat::floating});
-        CHECK(read_linear(folder / "a.exr", exposure).rgb == picture.rgb);
+        write_picture(folder / "a.exr", picture, {}, {{.exposure = exposure}, ExrFormat::floating});
+        CHECK(read_linear(folder / "a.exr", {.exposure = exposure}).rgb == picture.rgb);
         // Half a code, or a whole one that is dithered, where the curve is steepest: its slope is at most 2.4 / 1.055
         // of light a code's unit.
         for (const auto& [name, codes] : {std::pair{"a.png", 255.0 / 2}, {"a.tif", 65535.0}}) {
-            write_picture(folder / name, picture, {}, {exposure, ExrFormat::half});
-            const Picture read = read_linear(folder / name, exposure);
+            write_picture(folder / name, picture, {}, {{.exposure = exposure}, ExrFormat::half});
+            const Picture read = read_linear(folder / name, {.exposure = exposure});
             const double bound = 0.5 / codes * 2.4 / 1.055 * std::exp2(-exposure) + 1e-7;
             double worst = 0;
             for (std::size_t i = 0; i < picture.rgb.size(); ++i)

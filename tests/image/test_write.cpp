@@ -87,7 +87,7 @@ TEST_CASE("a float EXR gives back every bit, a half EXR every half") {
     picture.rgb[0] = -3.5f;
     picture.rgb[1] = 1e30f;
     picture.rgb[2] = 1e-30f;
-    write_picture(folder / "f.exr", picture, {}, {0.0, ExrFormat::floating});
+    write_picture(folder / "f.exr", picture, {}, {{}, ExrFormat::floating});
     CHECK(read_picture(folder / "f.exr").rgb == picture.rgb);
 
     write_picture(folder / "h.exr", picture);
@@ -109,8 +109,8 @@ TEST_CASE("16-bit pictures hold the nearest sRGB code after exposure, 8-bit ones
     const float special[] = {0.0f, 1.0f, 0.0031308f, 0.18f, -1.0f, 1e30f, 1e-30f, 0.5f};
     std::copy(std::begin(special), std::end(special), picture.rgb.begin());
     for (const double exposure : {0.0, 1.0, -2.5, 0.37}) {
-        write_picture(folder / "a.png", picture, {}, {exposure, ExrFormat::half});
-        write_picture(folder / "a.tiff", picture, {}, {exposure, ExrFormat::half});
+        write_picture(folder / "a.png", picture, {}, {{.exposure = exposure}, ExrFormat::half});
+        write_picture(folder / "a.tiff", picture, {}, {{.exposure = exposure}, ExrFormat::half});
         const Picture eight = read_picture(folder / "a.png"), sixteen = read_picture(folder / "a.tiff");
         int wrong = 0, far = 0;
         for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
@@ -236,7 +236,7 @@ TEST_CASE("a picture that contradicts itself is refused") {
     CHECK(error_of(folder / "a.exr", {4, 3, 0, 0, 5, 3, std::vector<float>(45)}).find("0,0,5,3") != std::string::npos);
     CHECK(!error_of(folder / "a.exr", {4, 3, 2, 0, 2, 3, {}}).empty());
     CHECK(!error_of(folder / "a.exr", {4, 3, 3, 0, 1, 3, {}}).empty());
-    CHECK(!error_of(folder / "a.png", make_picture(2, 2), {}, {std::nan(""), ExrFormat::half}).empty());
+    CHECK(!error_of(folder / "a.png", make_picture(2, 2), {}, {{.exposure = std::nan("")}, ExrFormat::half}).empty());
     CHECK(folder.names().empty());
 }
 
@@ -254,8 +254,8 @@ TEST_CASE("extreme exposures give black or white, never garbage") {
     const ScratchFolder folder;
     Picture picture = make_picture(2, 1);
     picture.rgb = {0.0f, 1e-30f, 1.0f, 0.0f, 1e30f, -1.0f};
-    write_picture(folder / "a.png", picture, {}, {1e9, ExrFormat::half});
+    write_picture(folder / "a.png", picture, {}, {{.exposure = 1e9}, ExrFormat::half});
     CHECK(read_picture(folder / "a.png").rgb == std::vector<float>{0, 1, 1, 0, 1, 0});
-    write_picture(folder / "a.png", picture, {}, {-1e9, ExrFormat::half});
+    write_picture(folder / "a.png", picture, {}, {{.exposure = -1e9}, ExrFormat::half});
     CHECK(read_picture(folder / "a.png").rgb == std::vector<float>{0, 0, 0, 0, 0, 0});
 }

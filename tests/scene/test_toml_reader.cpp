@@ -80,7 +80,8 @@ TEST_CASE("unknown keys and sections are refused where they stand, with what is 
           "t.toml:3:1: fov_deg: unknown key, allowed outside sections: title, image; sections: " + kSections +
               ", did you mean 'camera.fov_deg'?");
     CHECK(error_of("[film]\nwidth = 3\nfov_deg = 35\n") ==
-          "t.toml:3:1: film.fov_deg: unknown key, allowed in [film]: width, height, exposure, did you mean "
+          "t.toml:3:1: film.fov_deg: unknown key, allowed in [film]: width, height, exposure, tone, white_balance, "
+          "saturation, contrast, did you mean "
           "'camera.fov_deg'?");
     CHECK(error_of("[camera.lens]\nblades = 7\n") ==
           "t.toml:1:9: camera.lens: unknown key, allowed in [camera]: " + kCameraKeys);

@@ -327,5 +327,9 @@ TEST_CASE("a settings mark tells what changes the work, and nothing else") {
     other = scene;
     other.title = "another";
     other.film.exposure = 1.0;
+    other.film.tone = scene::ToneCurve::agx;
+    other.film.white_balance.r = 1.1;
+    other.film.saturation = 0.9;
+    other.film.contrast = 1.2;
     CHECK(mark == settings_mark(other, whole(scene), "fast"));
 }

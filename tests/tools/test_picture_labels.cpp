@@ -31,6 +31,9 @@ TEST_CASE("labels tell what differs and nothing else") {
     scene::Scene fewer = with(2, 4);
     fewer.surface.octaves = 3;
     CHECK(labels_of({with(2, 4), fewer}, {"a", "b"}) == Labels{"octaves = 8", "octaves = 3"});
+    scene::Scene curved = with(2, 4);
+    curved.film.tone = scene::ToneCurve::agx;
+    CHECK(labels_of({with(2, 4), curved}, {"a", "b"}) == Labels{"tone = none", "tone = agx"});
 }
 
 TEST_CASE("pictures that cannot be told apart by their scenes go by their names") {

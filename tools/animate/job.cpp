@@ -155,7 +155,7 @@ void choose_size(AnimateJob& job) {
     if (job.columns.empty()) return;
     image::check_fonts();
     const image::Picture blank = image::make_picture(job.width, job.height);
-    const image::Canvas sheet = side_by_side(job.columns, std::vector(job.columns.size(), image::to_canvas(blank, 0)));
+    const image::Canvas sheet = side_by_side(job.columns, std::vector(job.columns.size(), image::to_canvas(blank)));
     job.width = sheet.width;
     job.height = sheet.height;
 }
@@ -173,7 +173,7 @@ AnimateJob prepare_animation(const AnimateRequest& request) {
     const LoadedScene loaded = request.scene.load();
     job.scene = loaded.scene;
     job.format = request.format.empty() ? "half" : request.format;
-    job.write = {.exposure = job.scene.film.exposure, .exr_format = parse_exr_format(job.format)};
+    job.write = {.colour = image::colour_out(job.scene.film), .exr_format = parse_exr_format(job.format)};
     if (!job.quiet) job.write.warn = warn_of_clipping;
     job.range = request.frames.empty() ? default_frames(job.scene) : parse_frames(request.frames);
     job.scene.shutter.frame = job.range.first();

@@ -95,7 +95,7 @@ Plan plan(Size size) {
 void draw(const Plan& plan, Pictures pictures, const std::filesystem::path& folder) {
     std::vector<LabelledPanel> panels;
     for (std::size_t i = 0; i < pictures.size(); ++i) {
-        panels.push_back({image::to_canvas(pictures[i], 0), kFilters[i % std::size(kFilters)].label});
+        panels.push_back({image::to_canvas(pictures[i]), kFilters[i % std::size(kFilters)].label});
         image::write_canvas(folder / plan.shown[i + 1].file, panels.back().canvas);
     }
     image::write_canvas(folder / plan.shown[0].file,

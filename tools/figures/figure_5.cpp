@@ -46,7 +46,7 @@ void mark(image::Canvas& canvas, const std::vector<int>& corners, const char* la
 }
 
 void draw(const Plan& plan, Pictures pictures, const std::filesystem::path& folder) {
-    image::Canvas canvas = image::to_canvas(pictures[0], plan.parts[0].scene.film.exposure);
+    image::Canvas canvas = image::to_canvas(pictures[0], image::colour_out(plan.parts[0].scene.film));
     image::write_canvas(folder / plan.shown[1].file, canvas);
     mark(canvas, plan.parameters.at("area_of_figure_6"), "6");
     mark(canvas, plan.parameters.at("area_of_figure_7"), "7");

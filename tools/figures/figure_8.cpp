@@ -118,7 +118,7 @@ void draw(const Plan& plan, Pictures pictures, const std::filesystem::path& fold
     std::vector<LabelledPanel> panels;
     std::size_t i = 0;
     each_panel([&](const Row& row, const Column& column, int frame) {
-        image::Canvas canvas = image::to_canvas(pictures[i], 0);
+        image::Canvas canvas = image::to_canvas(pictures[i]);
         image::write_canvas(folder / plan.shown[i + 1].file, canvas);
         if (wheel_gain(row.spoke_Hz, column.time_order) > 0.1) mark_spoke(canvas, plan.parts[i].scene);
         panels.push_back({canvas, label_of(row, column, frame)});

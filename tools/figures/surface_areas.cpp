@@ -61,7 +61,7 @@ void draw_detail(const Plan& plan, Pictures pictures, const std::filesystem::pat
                  std::span<const DetailColumn> columns) {
     std::vector<LabelledPanel> panels;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        const image::Canvas canvas = image::to_canvas(pictures[i], plan.parts[i].scene.film.exposure);
+        const image::Canvas canvas = image::to_canvas(pictures[i], image::colour_out(plan.parts[i].scene.film));
         panels.push_back({image::magnify(canvas, zoom_of(plan)), columns[i].label});
         image::write_canvas(folder / plan.shown[i + 1].file, panels.back().canvas);
     }

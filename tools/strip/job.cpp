@@ -285,7 +285,8 @@ StripJob prepare_strip(const StripRequest& request) {
     job.rmse = request.rmse;
     job.parts = request.parts;
     const auto& first_scene = job.columns.front().scene;
-    job.exposure = loaded ? loaded->scene.film.exposure : first_scene ? first_scene->film.exposure : 0.0;
+    const scene::Film* film = loaded ? &loaded->scene.film : first_scene ? &first_scene->film : nullptr;
+    if (film) job.colour = image::colour_out(*film);
     job.title = request.title.value_or(loaded ? loaded->scene.title : "");
     job.caption = request.caption.value_or(default_caption(job));
     if (loaded) job.scene_text = scene::print_scene(loaded->scene);

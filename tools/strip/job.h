@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "src/image/colour_out.h"
 #include "src/image/picture.h"
 #include "src/render/film.h"
 #include "src/scene/scene.h"
@@ -39,7 +40,7 @@ struct StripJob {
     render::Window window;                        // of the frame
     int frame_width = 0, frame_height = 0;
     int zoom = 1;
-    double exposure = 0;  // stops
+    image::ColourOut colour;
     std::optional<double> top;
     std::string title, caption, scene_text;
     std::filesystem::path output;

@@ -9,6 +9,7 @@
 #include "src/image/compare.h"
 #include "src/image/difference.h"
 #include "src/image/sheet.h"
+#include "src/scene/enum_names.h"
 
 namespace strata::tools {
 
@@ -19,6 +20,11 @@ constexpr int kScaleWidth = 320;
 const StripSource* reference_of(const StripJob& job) {
     if (job.reference_column) return &job.columns[*job.reference_column];
     return job.reference ? &*job.reference : nullptr;
+}
+
+// Pictures from files are all shown alike; a rendered one may have been asked for with colours of its own.
+image::ColourOut colour_of(const StripJob& job, const StripSource& column) {
+    return column.file.empty() ? image::colour_out(column.scene->film) : job.colour;
 }
 
 std::string rmse_text(const image::Comparison& comparison) {
@@ -66,7 +72,7 @@ image::Canvas draw_strip(const StripJob& job) {
     for (const StripSource& column : job.columns) {
         sheet.column_labels.push_back(column.label);
         sheet.rows.front().push_back(
-            {image::magnify(image::to_canvas(column.picture, job.exposure), job.zoom), "", false});
+            {image::magnify(image::to_canvas(column.picture, colour_of(job, column)), job.zoom), "", false});
     }
     const StripSource* reference = reference_of(job);
     if (reference == nullptr) return image::compose(sheet);
@@ -91,7 +97,9 @@ image::Metadata strip_metadata(const StripJob& job) {
     if (const StripSource* reference = reference_of(job)) metadata.set("strata:reference", reference->name);
     metadata.set("strata:crop", fmt::format("{},{},{},{}", w.x0, w.y0, w.x1, w.y1));
     metadata.set("strata:zoom", job.zoom);
-    metadata.set("strata:exposure", job.exposure);
+    metadata.set("strata:exposure", job.colour.exposure);
+    if (job.colour.tone != scene::ToneCurve::none)
+        metadata.set("strata:tone", std::string(scene::name_of(job.colour.tone)));
     metadata.set("strata:simd_target", noise::simd_target());
     // Not the scene's own entry: a strip is no picture that could be rendered again from it.
     if (!job.scene_text.empty()) metadata.set("strata:columns_scene", job.scene_text);

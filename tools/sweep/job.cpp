@@ -80,13 +80,13 @@ scene::Scene target_of(const SweepCell& cell) {
     if (target.sampling.estimator == scene::EstimatorKind::super) target.sampling.m = 1;
     target.sampling.estimator = scene::EstimatorKind::shared_sobol;
     target.sampling.N = kMostN;
-    target.film.exposure = 0;
+    target.film = target.film.without_colour();
     return target;
 }
 
 bool changes_target(const SweepAxis& axis) {
-    return axis.key != "sampling.N" && axis.key != "sampling.estimator" && axis.key != "sampling.seed" &&
-           axis.key != "film.exposure";
+    const bool only_colours = axis.key.starts_with("film.") && axis.key != "film.width" && axis.key != "film.height";
+    return axis.key != "sampling.N" && axis.key != "sampling.estimator" && axis.key != "sampling.seed" && !only_colours;
 }
 
 // What tells a reference from others of the sweep: the axes that change the filter or the scene.

@@ -69,10 +69,9 @@ SweepOutcome render_sweep(PlannedFiles& files, const SweepJob& job, SweepLedger&
         if (!rendered.result.cancelled) {
             const std::filesystem::path path = job.folder / picture->file;
             const bool written = is_written(path, [&] {
-                image::write_picture(path, rendered.picture, picture->metadata,
-                                     {.exposure = 0,
-                                      .exr_format = image::ExrFormat::floating,
-                                      .frames_per_second = frame_rate(picture->scene)});
+                image::write_picture(
+                    path, rendered.picture, picture->metadata,
+                    {.exr_format = image::ExrFormat::floating, .frames_per_second = frame_rate(picture->scene)});
             });
             failed_in_a_row = written ? 0 : failed_in_a_row + 1;
             outcome.unresolved_rays += rendered.result.counters.unresolved_rays;

@@ -54,7 +54,8 @@ image::Picture shrunk(const image::Picture& picture, int n) {
 image::Panel make_panel(const SweepJob& job, const SweepResults& results, std::size_t i, const Scaling& scaling) {
     const SweepPicture& picture = job.cells[i].picture;
     const image::Picture linear = shrunk(image::read_picture(job.folder / picture.file), scaling.shrink);
-    image::Panel panel{image::magnify(image::to_canvas(linear, picture.scene.film.exposure), scaling.zoom), "", false};
+    image::Panel panel{image::magnify(image::to_canvas(linear, image::colour_out(picture.scene.film)), scaling.zoom),
+                       "", false};
     if (results.cells[i]) {
         panel.note =
             fmt::format("RMSE {:#.3g}{}", results.cells[i]->rmse, results.is_near_reference(job, i) ? " *" : "");
