@@ -109,6 +109,8 @@ state_of() { # case file
         [[ -e $new ]] && cmp -s "$old" "$new" && echo new || echo old
     elif cmp -s "$new" "$now" || { [[ $2 == ${varying[$1]-} ]] && is_whole "$now" "$new"; }; then
         echo new
+    elif [[ $2 == */figure-*.json && $(<"$now") == '{}' ]]; then
+        echo absent # an emptied record says that its figure is still to be made
     else
         echo broken
     fi
