@@ -3,8 +3,9 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <span>
+#include <vector>
 
+#include "noise/fbm.h"
 #include "shaders_cpu/daylight/daylight.h"
 #include "src/scene/scene.h"
 
@@ -25,6 +26,10 @@ class DaylightScene {
     // What a white Lambert surface shows at a height (surface units): under a sun that it faces, and under the whole
     // sky and ground for a unit normal.
     glm::vec3 sun_on_white(double height) const;
+
+    // The part of the sun that mountains out of the picture leave at a point of the surface: sun.shadow_height. Their
+    // ridge line is a noise across the sun's direction.
+    float sun_over_ridges(const glm::dvec3& x) const;
     glm::vec3 sky_on_white(const glm::dvec3& normal) const;
 
     // Radiance seen through the air; distance from the eye in surface units.
@@ -32,6 +37,9 @@ class DaylightScene {
 
   private:
     double metres_, altitude_, gain_;
+    scene::Sun sun_;
+    glm::dvec3 across_;  // level, across the sun's direction
+    std::vector<noise::Octave> ridges_;
     shaders::Daylight daylight_;
 };
 

@@ -42,7 +42,8 @@ void make_shadow_rays(const SurfaceSetup& setup, SurfaceChunk& chunk) {
 glm::vec3 shade_by_daylight(const SurfaceSetup& setup, const SurfaceChunk& chunk, std::size_t i) {
     const glm::dvec3 normal(chunk.normal[i]);
     const double height = chunk.x[i].y;
-    const auto facing = static_cast<float>(std::max(glm::dot(normal, chunk.sun_of_hit(i)), 0.0)) * chunk.visibility[i];
+    const auto facing = static_cast<float>(std::max(glm::dot(normal, chunk.sun_of_hit(i)), 0.0)) * chunk.visibility[i] *
+                        setup.daylight->sun_over_ridges(chunk.x[i]);
     const glm::vec3 light = setup.daylight->sun_on_white(height) * facing + setup.daylight->sky_on_white(normal);
     return setup.shader.albedo(height, normal.y) * light;
 }

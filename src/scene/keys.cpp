@@ -188,7 +188,13 @@ Section sun_section(Sun& sun, bool daylight, bool matters) {
         {direction("direction", sun.direction, "towards the sun"),
          only_if(!daylight, colour("colour", sun.colour, kLight, "colour of its light")),
          only_if(!daylight, number("intensity", sun.intensity, kLight, "", "times colour is the light; 0: no sun")),
-         flag("shadows", sun.shadows, "whether the surface shadows itself")});
+         flag("shadows", sun.shadows, "whether the surface shadows itself"),
+         only_if(daylight, number("shadow_height", sun.shadow_height, {-1e6, 1e6}, "surface units",
+                                  "daylight: up to here lies the shadow of mountains out of the picture")),
+         only_if(daylight, number("shadow_relief", sun.shadow_relief, {0.0, 1e6}, "surface units",
+                                  "daylight: how far their ridge line makes its edge go up and down")),
+         only_if(daylight, number("shadow_width", sun.shadow_width, {1e-9, 1e6}, "surface units",
+                                  "daylight: height over which that shadow ends"))});
 }
 
 Section sky_section(Sky& sky, bool matters) {

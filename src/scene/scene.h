@@ -109,6 +109,11 @@ struct Sun {
     glm::dvec3 colour{1.0, 0.93, 0.82};
     double intensity = 2.6;
     bool shadows = true;
+
+    // daylight: the shadow of mountains that the scene does not have, up to about this height
+    double shadow_height = -1e6;  // surface units; far below: none
+    double shadow_relief = 0.0;   // how much its edge goes up and down, surface units
+    double shadow_width = 0.05;   // how soft its edge is, surface units
 };
 
 struct Sky {

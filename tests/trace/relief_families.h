@@ -68,6 +68,7 @@ inline std::vector<noise::ReliefTerm> random_landform(Random& random) {
         gullies.size = log_uniform(random, 0.3, 2.0);
         gullies.bands = uniform(random, 0.6, 1.5);
         add("g", gullies);
+        if (random() % 2 == 0) terms.back().of.push_back("a");  // which guides them
     }
     return terms;
 }
