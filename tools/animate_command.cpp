@@ -130,9 +130,8 @@ class Animator {
         if (job_.columns.empty()) {
             image::WriteOptions options = job_.write;
             options.frames_per_second = frame_rate(scenes.front());
-            write_each(todo, [&](const fs::path& path) {
-                image::write_picture(path, pictures.front(), metadata, options);
-            });
+            write_each(todo,
+                       [&](const fs::path& path) { image::write_picture(path, pictures.front(), metadata, options); });
             return;
         }
         std::vector<image::Canvas> canvases;

@@ -2,9 +2,9 @@
 
 #include "src/image/output_file.h"
 #include "src/image/picture_stream.h"
+#include "src/integrate/make_image.h"
 #include "src/library/render_setting.h"
 #include "src/library/translate.h"
-#include "src/integrate/make_image.h"
 #include "tools/picture_metadata.h"
 
 namespace strata {
