@@ -99,27 +99,35 @@ bool is_without_content(const fs::path& path, Found& found) {
     return true;
 }
 
+// Why a file cannot be read; the name that the message begins with is told by the caller.
+std::string reason_of(const image::ImageError& error) {
+    const std::string_view message = error.what(), name = "\": ";
+    const std::size_t end = message.find(name);
+    return std::string(end == message.npos ? message : message.substr(end + name.size()));
+}
+
 }  // namespace
 
 Found find_picture(const fs::path& path, const image::Metadata& expected, const image::PictureShape& shape) {
     Found found;
     if (is_without_content(path, found)) return found;
-    if (!image::is_picture(path)) return {Presence::other, "it is no picture"};
     try {
+        if (!image::is_picture(path)) return {Presence::other, "it is no picture"};
         return judge(image::read_facts(path), expected, shape);
     } catch (const image::ImageError& error) {
-        // The name that its message begins with is told by the caller.
-        const std::string_view message = error.what(), name = "\": ";
-        const std::size_t end = message.find(name);
-        return {Presence::damaged, std::string(end == message.npos ? message : message.substr(end + name.size()))};
+        return {Presence::damaged, reason_of(error)};
     }
 }
 
 Found find_file(const fs::path& path, std::string_view digest) {
     Found found;
     if (is_without_content(path, found)) return found;
-    if (image::digest_of_file(path) != digest) return {Presence::damaged, kOtherBytes};
-    return {Presence::same, ""};
+    try {
+        if (image::digest_of_file(path) == digest) return {Presence::same, ""};
+    } catch (const image::ImageError& error) {
+        return {Presence::damaged, reason_of(error)};
+    }
+    return {Presence::damaged, kOtherBytes};
 }
 
 void tell_damaged(const fs::path& path, const Found& found) {

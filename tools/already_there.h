@@ -14,7 +14,7 @@ namespace strata::tools {
 enum class Presence {
     missing,
     same,
-    damaged,  // empty, cut, or of other bytes than were written: to be made again
+    damaged,  // empty, cut, unreadable, or of other bytes than were written: to be made again
     other     // made by other settings or something else
 };
 

@@ -5,9 +5,12 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <fstream>
 #include <system_error>
+
+#include "src/image/image_error.h"
 
 namespace strata::image {
 namespace fs = std::filesystem;
@@ -79,11 +82,24 @@ Scan scan(const ReadBytes& read, const std::optional<Field>& field) {
     }
 }
 
-ReadBytes reader_of(std::ifstream& file) {
-    return [&file](std::int64_t, std::span<unsigned char> bytes) {  // one block after the other
+[[noreturn]] void fail(const fs::path& path, const std::error_code& error) {
+    throw ImageError(fmt::format("cannot read \"{}\": {}", path.string(), error.message()));
+}
+
+std::error_code last_error() { return {errno != 0 ? errno : EIO, std::generic_category()}; }
+
+// A file whose reading fails is not one that ends there: a stream tells them apart by its bad bit.
+Scan scan_file(const fs::path& path, const std::optional<Field>& field) {
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) fail(path, last_error());
+    const auto read = [&](std::int64_t, std::span<unsigned char> bytes) {  // one block after the other
+        errno = 0;
         file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        if (file.bad()) fail(path, last_error());
         return static_cast<std::size_t>(file.gcount());
     };
+    return scan(read, field);
 }
 
 std::span<const unsigned char> bytes_of(const std::string& text) {
@@ -135,15 +151,15 @@ Integrity check_digest(const fs::path& path, Format format, const std::optional<
     const std::optional<std::uint64_t> length = digest ? length_in(*digest) : std::nullopt;
     if (!length) return Integrity::unknown;
     std::error_code error;
-    if (fs::file_size(path, error) != *length) return Integrity::another_length;
-    std::ifstream file(path, std::ios::binary);
-    const Scan scanned = scan(reader_of(file), field_of(format, *digest));
+    const std::uint64_t size = fs::file_size(path, error);
+    if (error) fail(path, error);
+    if (size != *length) return Integrity::another_length;
+    const Scan scanned = scan_file(path, field_of(format, *digest));
     return digest_text(scanned.hash, scanned.length) == *digest ? Integrity::whole : Integrity::damaged;
 }
 
 std::string digest_of_file(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    const Scan scanned = scan(reader_of(file), std::nullopt);
+    const Scan scanned = scan_file(path, std::nullopt);
     return digest_text(scanned.hash, scanned.length);
 }
 

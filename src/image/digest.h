@@ -35,10 +35,11 @@ enum class Integrity {
     unknown          // it carries no digest
 };
 
-// `digest` is what the file says.
+// `digest` is what the file says. Throws ImageError where the file cannot be read to its end.
 Integrity check_digest(const std::filesystem::path& path, Format format, const std::optional<std::string>& digest);
 
 // Of any file, to be kept beside it: "xxh64 0123456789abcdef of 000000000001234 bytes".
+// Throws ImageError where it cannot be read to its end.
 std::string digest_of_file(const std::filesystem::path& path);
 
 }  // namespace strata::image

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -44,9 +46,11 @@ constexpr std::array<Signature, 5> kSignatures{{
 std::optional<Format> sniff(const fs::path& path) {
     std::error_code error;
     if (!fs::is_regular_file(path, error)) return std::nullopt;
+    errno = 0;
     std::ifstream file(path, std::ios::binary);
     std::array<char, 8> buffer{};
     file.read(buffer.data(), buffer.size());
+    if (file.bad()) fail(path, std::generic_category().message(errno != 0 ? errno : EIO));
     const std::string_view start(buffer.data(), static_cast<std::size_t>(file.gcount()));
     for (const Signature& signature : kSignatures)
         if (start.starts_with(signature.bytes)) return signature.format;
@@ -59,7 +63,9 @@ void check_readable(const fs::path& path) {
     if (status.type() == fs::file_type::not_found) fail(path, "it does not exist");
     if (error) fail(path, error.message());
     if (fs::is_directory(status)) fail(path, "it is a folder");
-    if (!std::ifstream(path)) fail(path, "it may not be read");
+    errno = 0;
+    if (std::ifstream(path)) return;
+    fail(path, errno == 0 || errno == EACCES ? "it may not be read" : std::generic_category().message(errno));
 }
 
 struct OpenPicture {

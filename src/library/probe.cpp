@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/integrate/surface_image.h"
 #include "src/library/scene_data.h"
 #include "src/library/translate.h"
 #include "src/render/estimator.h"
-#include "src/integrate/surface_image.h"
 #include "src/scene/validate.h"
 
 namespace strata {

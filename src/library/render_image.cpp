@@ -1,6 +1,6 @@
+#include "src/integrate/make_image.h"
 #include "src/library/render_setting.h"
 #include "src/library/translate.h"
-#include "src/integrate/make_image.h"
 
 namespace strata {
 

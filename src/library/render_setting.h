@@ -6,9 +6,9 @@
 #include <optional>
 #include <stop_token>
 
+#include "src/integrate/surface_image.h"
 #include "src/render/cancel.h"
 #include "src/render/progressive.h"
-#include "src/integrate/surface_image.h"
 #include "src/scene/scene.h"
 #include "src/strata.h"
 

@@ -5,8 +5,8 @@
 //                                    of half the bytes. Several, with commas between, at once
 //   STRATA_TEST_FAULT_LOG=FILE       gets a line for every call that counts: kind, number, "failed" or "called", what
 //   STRATA_TEST_SPAWN_PAUSE=S        posix_spawn() returns S seconds after the program was started, or when a signal
-//   comes STRATA_TEST_THREADS=K            pthread_create() fails, as under a limit of processes, while K threads are
-//   alive
+//                                    comes
+//   STRATA_TEST_THREADS=K            pthread_create() fails, as under a limit of processes, while K threads are alive
 //
 // All are taken out of the environment, LD_PRELOAD with them, so that programs that this one runs are left alone.
 #pragma once

@@ -238,3 +238,22 @@ TEST_CASE("a digest kept beside a file tells when any of its bytes changes") {
     write_bytes(path, bytes);
     CHECK(digest_of_file(path) == digest);
 }
+
+TEST_CASE("what cannot be read has no digest, and the reason is told") {
+    const ScratchFolder folder;
+    const auto reason_of = [](const std::filesystem::path& path) -> std::string {
+        try {
+            return digest_of_file(path);
+        } catch (const ImageError& error) {
+            return error.what();
+        }
+    };
+    const auto missing = folder / "missing";
+    CHECK(reason_of(missing) == "cannot read \"" + missing.string() + "\": No such file or directory");
+    // A folder is opened like a file; what fails is the first read.
+    const auto opened = folder / "opened";
+    std::filesystem::create_directory(opened);
+    CHECK(reason_of(opened) == "cannot read \"" + opened.string() + "\": Is a directory");
+    const std::string digest = "xxh64 0123456789abcdef of " + std::string(11, '0') + "4096 bytes";
+    CHECK_THROWS_AS(check_digest(missing, Format::png, digest), ImageError);
+}

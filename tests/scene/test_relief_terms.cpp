@@ -61,7 +61,7 @@ TEST_CASE("a printed scene with a relief of every type reads back as the same") 
     Scene scene;
     for (std::size_t type = 0; type < relief_types().size(); ++type) {
         auto term = default_relief_term(type);
-        term.name = "t" + std::to_string(type);
+        term.name = std::string("t").append(std::to_string(type));  // of "t" + ..., g++ 12 warns without cause
         const int inputs = std::visit([](const auto& node) { return node.kFewestInputs; }, term.node);
         for (int i = 0; i < inputs; ++i) term.of.push_back("t0");
         scene.surface.relief.push_back(term);

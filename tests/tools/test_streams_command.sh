@@ -77,7 +77,7 @@ check_stream_refusals() {
         output=$(script -qec "'$strata' render wheel --size 16x9 -o -" /dev/null </dev/null)
         expect_match 'a terminal is no place for a picture' "$output" '*a terminal does not show pictures*'
     fi
-    "$strata" render hyperterrain --size 320x180 -N 64 --quiet -o - >part &
+    "${interruptible[@]}" "$strata" render hyperterrain --size 320x180 -N 64 --quiet -o - >part &
     local pid=$!
     await_handler "$pid"
     sleep 0.5

@@ -13,8 +13,8 @@ namespace strata::tools {
 struct PilotRun {
     integrate::Counters counters;               // of all blocks
     std::vector<integrate::Counters> by_block;  // row by row
-    int columns = 1;                         // blocks a row
-    double cpu_seconds = 0.0;                // of evaluating the image function
+    int columns = 1;                            // blocks a row
+    double cpu_seconds = 0.0;                   // of evaluating the image function
     // How many cells of the screen a ray of a render's batch touches, over how many one of these blocks does.
     double shared_correction = 1.0;
 };

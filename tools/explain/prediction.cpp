@@ -88,7 +88,8 @@ void leave_out(const scene::Scene& scene, Costs& costs) {
 template <class Member>
 double shared_part(const integrate::Counters& counters, Member member) {
     double sum = 0.0;
-    for (const integrate::Phase phase : {integrate::Phase::beams, integrate::Phase::windows, integrate::Phase::sun_beams}) {
+    for (const integrate::Phase phase :
+         {integrate::Phase::beams, integrate::Phase::windows, integrate::Phase::sun_beams}) {
         sum += static_cast<double>(counters.phases[static_cast<std::size_t>(phase)].*member);
     }
     return sum;
