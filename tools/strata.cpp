@@ -8,15 +8,15 @@
 #include <new>
 #include <sstream>
 
-#include "src/render/cancel.h"
+#include "src/parallel/cancel.h"
 #include "src/scene/key_text.h"
 #include "src/scene/scene_error.h"
 #include "src/scene/suggest.h"
-#include "tools/commands.h"
-#include "tools/endings.h"
-#include "tools/errors.h"
-#include "tools/process.h"
-#include "tools/standard_output.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/endings.h"
+#include "tools/cli/errors.h"
+#include "tools/cli/process.h"
+#include "tools/cli/standard_output.h"
 
 namespace {
 
@@ -134,7 +134,7 @@ int run(int argc, char** argv) {
         return fail("out of memory; a smaller --size, or --crop, needs less", strata::tools::kExitRuntime);
     } catch (const strata::tools::ProcessError& error) {
         // The signal that stopped this program stopped the one that it ran.
-        const int signal = strata::render::cancelling_signal();
+        const int signal = strata::parallel::cancelling_signal();
         return fail(error.what(), signal != 0 ? strata::tools::kExitSignal + signal : strata::tools::kExitRuntime);
     } catch (const std::exception& error) {
         return fail(strata::tools::message_of(error).c_str(), strata::tools::kExitRuntime);

@@ -5,7 +5,7 @@
 strata_floor(strata_noise_library src/library/noise strata_noise)
 strata_floor(strata_library src/library strata_noise_library strata_render strata_image)
 # The program's own description of a picture, so that both write the same bytes.
-target_sources(strata_library PRIVATE ${PROJECT_SOURCE_DIR}/tools/picture_metadata.cpp)
+target_sources(strata_library PRIVATE ${PROJECT_SOURCE_DIR}/tools/job/picture_metadata.cpp)
 target_compile_definitions(strata_library PRIVATE STRATA_VERSION="${PROJECT_VERSION}")
 set_target_properties(strata_library PROPERTIES STRATA_LIGHT ON)
 if(STRATA_SANITIZE)
@@ -35,8 +35,7 @@ set_target_properties(strata_noise_archive PROPERTIES OUTPUT_NAME strata_noise)
 target_link_libraries(strata_noise_archive PRIVATE PkgConfig::hwy)
 
 strata_archive(strata strata.h strata_filter strata_sample strata_scene strata_daylight strata_shaders strata_trace
-  strata_accel strata_integrate strata_render
-  strata_image strata_library)
+  strata_accel strata_integrate strata_parallel strata_film strata_estimate strata_render strata_image strata_library)
 set_target_properties(strata_strata_archive PROPERTIES OUTPUT_NAME strata)
 target_link_libraries(strata_strata_archive PUBLIC strata_noise_archive
   PRIVATE PkgConfig::hwy TBB::tbb PkgConfig::OpenImageIO PkgConfig::freetype2 fmt::fmt

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/estimate/estimator.h"
 #include "src/integrate/surface_image.h"
 #include "src/library/scene_data.h"
 #include "src/library/translate.h"
-#include "src/render/estimator.h"
 #include "src/scene/validate.h"
 
 namespace strata {
@@ -44,7 +44,7 @@ struct Probe::Data {
     Data(const scene::Scene& valid, Tracer tracer)
         : scene(valid),
           image(scene, tracer == Tracer::fast ? integrate::Tracer::fast : integrate::Tracer::reference),
-          mid_shutter_s(render::estimator_settings(scene).shutter.middle_s()) {}
+          mid_shutter_s(estimate::estimator_settings(scene).shutter.middle_s()) {}
 
     scene::Scene scene;
     integrate::SurfaceImage image;

@@ -5,7 +5,7 @@
 #include "src/integrate/make_image.h"
 #include "src/library/render_setting.h"
 #include "src/library/translate.h"
-#include "tools/picture_metadata.h"
+#include "tools/job/picture_metadata.h"
 
 namespace strata {
 
@@ -36,7 +36,7 @@ class FileRender {
 FileRender::FileRender(RenderSetting& setting, const fs::path& file, const FileOptions& options)
     : setting_(setting), file_(file) {
     const scene::Film& frame = setting.scene().film;
-    const render::Window& w = setting.window();
+    const film::Rect& w = setting.window();
     if (image::is_standard_output(file)) {
         throw Error(fmt::format("{}: standard output, allowed: a file", file.string()));
     }
@@ -62,11 +62,11 @@ void FileRender::write(image::PictureStream& stream, std::span<const glm::vec3> 
 // One pass goes into its file while it is rendered.
 render::ProgressiveResult FileRender::streamed() {
     const auto image = integrate::make_image(setting_.scene(), setting_.tracer());
-    const render::Estimator estimator(render::estimator_settings(setting_.scene()));
+    const estimate::Estimator estimator(estimate::estimator_settings(setting_.scene()));
     image::PictureStream stream(file_, shape_, metadata_, write_);
     render::ProgressiveResult result;
     result.render = render::render_strips(*image, estimator, setting_.window(), setting_.options(), image::kStripRows,
-                                          [&](const render::Film& strip) {
+                                          [&](const film::Film& strip) {
                                               try {
                                                   write(stream, strip.pixels());
                                               } catch (...) {
@@ -83,7 +83,7 @@ render::ProgressiveResult FileRender::streamed() {
 render::ProgressiveResult FileRender::in_passes() {
     const auto image = integrate::make_image(setting_.scene(), setting_.tracer());
     render::ProgressiveResult result = render::render_progressively(
-        *image, render::estimator_settings(setting_.scene()), setting_.window(), setting_.goal(), setting_.options());
+        *image, estimate::estimator_settings(setting_.scene()), setting_.window(), setting_.goal(), setting_.options());
     if (!is_whole(result.render)) return result;
     tools::set_passes(metadata_, setting_.scene().sampling, result.passes);
     image::PictureStream stream(file_, shape_, metadata_, write_);

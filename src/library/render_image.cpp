@@ -9,8 +9,8 @@ RenderedImage render_image(const Scene& scene, const RenderOptions& options) {
     RenderedImage made = translated([&] {
         const auto image = integrate::make_image(setting.scene(), setting.tracer());
         const render::ProgressiveResult result = render::render_progressively(
-            *image, render::estimator_settings(setting.scene()), setting.window(), setting.goal(), setting.options());
-        const render::Window& w = setting.window();
+            *image, estimate::estimator_settings(setting.scene()), setting.window(), setting.goal(), setting.options());
+        const film::Rect& w = setting.window();
         const scene::Film& frame = setting.scene().film;
         RenderedImage rendered{{frame.width, frame.height, {w.x0, w.y0, w.x1, w.y1}, {}}, report_of(result)};
         const std::vector<glm::vec3>& pixels = result.render.film.pixels();

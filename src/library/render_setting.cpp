@@ -4,7 +4,7 @@
 
 #include "src/library/scene_data.h"
 #include "src/library/translate.h"
-#include "src/render/processors.h"
+#include "src/parallel/processors.h"
 #include "src/scene/enum_names.h"
 
 namespace strata {
@@ -20,7 +20,7 @@ int in_range(const char* name, int value, int least, int most) {
     throw Error(fmt::format("{}: out of range ({}), allowed: {} to {}", name, value, least, most));
 }
 
-render::Window window_of(const std::optional<Window>& window, const scene::Film& film) {
+film::Rect window_of(const std::optional<Window>& window, const scene::Film& film) {
     if (!window) return {0, 0, film.width, film.height};
     const Window& w = *window;
     const bool is_inside =
@@ -55,10 +55,10 @@ render::PassGoal goal_of(const RenderOptions& options, scene::EstimatorKind esti
 // Of several passes, while they are rendered: the sum, the pass in work and the one before it.
 constexpr double kBytesAPixelOfPasses = 24 + 13 + 13;
 
-void check_memory(const render::Window& window, const render::PassGoal& goal) {
+void check_memory(const film::Rect& window, const render::PassGoal& goal) {
     if (goal.passes == 1) return;
     const double needed = kBytesAPixelOfPasses * window.width() * window.height();
-    const double present = static_cast<double>(render::available_memory_bytes());
+    const double present = static_cast<double>(parallel::available_memory_bytes());
     if (needed <= present) return;
     throw Error(fmt::format(
         "passes: {}x{} pixels need {:.1f} GB of memory, there are {:.1f} GB; allowed: one pass, or a smaller window",
@@ -84,7 +84,7 @@ RenderSetting::RenderSetting(const Scene& scene, const RenderOptions& options) {
 
 // What the callback throws must not pass through the tasks, and is not to be taken for an error of the library's own.
 void RenderSetting::take_progress(const std::function<void(const Progress&)>& on_progress) {
-    options_.on_progress = [this, on_progress](const render::Progress& progress) {
+    options_.on_progress = [this, on_progress](const parallel::Progress& progress) {
         if (callback_failure_) return;
         try {
             on_progress({.fraction = progress.fraction,

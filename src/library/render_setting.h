@@ -7,7 +7,7 @@
 #include <stop_token>
 
 #include "src/integrate/surface_image.h"
-#include "src/render/cancel.h"
+#include "src/parallel/cancel.h"
 #include "src/render/progressive.h"
 #include "src/scene/scene.h"
 #include "src/strata.h"
@@ -23,7 +23,7 @@ class RenderSetting {
     RenderSetting& operator=(const RenderSetting&) = delete;
 
     const scene::Scene& scene() const { return scene_; }
-    const render::Window& window() const { return window_; }
+    const film::Rect& window() const { return window_; }
     const render::PassGoal& goal() const { return goal_; }
     integrate::Tracer tracer() const { return tracer_; }
     const render::RenderOptions& options() const { return options_; }
@@ -40,11 +40,11 @@ class RenderSetting {
     void take_progress(const std::function<void(const Progress&)>& on_progress);
 
     scene::Scene scene_;
-    render::Window window_;
+    film::Rect window_;
     render::PassGoal goal_;
     integrate::Tracer tracer_ = integrate::Tracer::fast;
     render::RenderOptions options_;
-    render::CancelToken cancel_;
+    parallel::CancelToken cancel_;
     std::exception_ptr callback_failure_;
     std::optional<std::stop_callback<std::function<void()>>> stop_;  // the last: it may call at once
 };

@@ -17,14 +17,14 @@ namespace {
 // were up to 2.5 times as many as told: hence 1 - 0.05 / 2.5.
 constexpr double kOneSidedConfidence = 0.98;
 
-glm::dvec3 difference(const Film& a, const Film& b, const PassSum& sum, std::size_t pixel) {
+glm::dvec3 difference(const film::Film& a, const film::Film& b, const PassSum& sum, std::size_t pixel) {
     if (!sum.weighted()) return glm::dvec3(a.pixels()[pixel]) - glm::dvec3(b.pixels()[pixel]);
     return (sum.passes() - 1.0) * (sum.mean_without(b, a, pixel) - sum.mean_without(a, b, pixel));
 }
 
 }  // namespace
 
-void ErrorMeter::add_pair(const Film& a, const Film& b, const PassSum& sum) {
+void ErrorMeter::add_pair(const film::Film& a, const film::Film& b, const PassSum& sum) {
     assert(a.window() == b.window() && a.complete() && b.complete() && sum.passes() >= 2);
     double squares = 0;
     for (std::size_t i = 0; i < sum.pixels(); ++i) {
@@ -39,7 +39,7 @@ void ErrorMeter::add_pair(const Film& a, const Film& b, const PassSum& sum) {
     if (sum.weighted()) add_moments(a, b);
 }
 
-void ErrorMeter::add_moments(const Film& a, const Film& b) {
+void ErrorMeter::add_moments(const film::Film& a, const film::Film& b) {
     moments_.resize(a.pixels().size(), glm::vec4(0));
     for (std::size_t i = 0; i < moments_.size(); ++i) {
         const double weight_a = a.weights()[i], weight_b = b.weights()[i];

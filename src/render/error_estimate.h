@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "src/render/film.h"
+#include "src/film/film.h"
 #include "src/render/pass_sum.h"
 
 namespace strata::render {
@@ -38,7 +38,7 @@ struct ErrorEstimate {
 class ErrorMeter {
   public:
     // Two passes, the last that went into the sum.
-    void add_pair(const Film& a, const Film& b, const PassSum& sum);
+    void add_pair(const film::Film& a, const film::Film& b, const PassSum& sum);
 
     int pairs() const { return pairs_; }
 
@@ -46,7 +46,7 @@ class ErrorMeter {
     std::optional<ErrorEstimate> of(const PassSum& sum) const;
 
   private:
-    void add_moments(const Film& a, const Film& b);
+    void add_moments(const film::Film& a, const film::Film& b);
     double squared_bias(const PassSum& sum) const;
 
     int pairs_ = 0;

@@ -4,7 +4,7 @@
 
 namespace strata::render {
 
-void PassSum::add(const Film& pass) {
+void PassSum::add(const film::Film& pass) {
     assert(pass.complete() && (passes_ == 0 || pass.pixels().size() == sum_.size()));
     if (passes_ == 0) {
         sum_.assign(pass.pixels().size(), glm::dvec3(0.0));
@@ -18,7 +18,7 @@ void PassSum::add(const Film& pass) {
     }
 }
 
-glm::dvec3 PassSum::mean_without(const Film& pass, const Film& other, std::size_t pixel) const {
+glm::dvec3 PassSum::mean_without(const film::Film& pass, const film::Film& other, std::size_t pixel) const {
     // Below this share the difference of two sums holds no digit that could be relied on.
     constexpr double kLeastShare = 1e-9;
     const double weight = weighted() ? pass.weights()[pixel] : 1.0;

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "src/render/film.h"
+#include "src/film/film.h"
 
 namespace strata::render {
 
@@ -16,7 +16,7 @@ namespace strata::render {
 class PassSum {
   public:
     // A complete film of the same window as those before. Weights are the film's; all passes have them or none.
-    void add(const Film& pass);
+    void add(const film::Film& pass);
 
     int passes() const { return passes_; }
     std::size_t pixels() const { return sum_.size(); }
@@ -30,7 +30,7 @@ class PassSum {
 
     // A pixel of all passes but `pass`, which has been added; of `other` instead where all others together weigh
     // next to nothing.
-    glm::dvec3 mean_without(const Film& pass, const Film& other, std::size_t pixel) const;
+    glm::dvec3 mean_without(const film::Film& pass, const film::Film& other, std::size_t pixel) const;
 
   private:
     double total(std::size_t pixel) const { return weight_.empty() ? passes_ : weight_[pixel]; }

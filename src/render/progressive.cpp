@@ -14,8 +14,8 @@ namespace {
 
 class ProgressiveRender {
   public:
-    ProgressiveRender(const integrate::ImageFunction& image, const EstimatorSettings& settings, const Window& window,
-                      const PassGoal& goal, const RenderOptions& options)
+    ProgressiveRender(const integrate::ImageFunction& image, const estimate::EstimatorSettings& settings,
+                      const film::Rect& window, const PassGoal& goal, const RenderOptions& options)
         : image_(image), settings_(settings), window_(window), goal_(goal), options_(options) {}
 
     ProgressiveResult run();
@@ -25,15 +25,15 @@ class ProgressiveRender {
     void add(RenderResult rendered);
     void predict();
     std::optional<PassesEnd> reached() const;
-    Progress whole_progress(const Progress& of_pass) const;
+    parallel::Progress whole_progress(const parallel::Progress& of_pass) const;
     int expected_passes() const;
     void average();
     bool cancel_requested() const { return options_.cancel != nullptr && options_.cancel->requested(); }
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
     const integrate::ImageFunction& image_;
-    const EstimatorSettings& settings_;
-    const Window& window_;
+    const estimate::EstimatorSettings& settings_;
+    const film::Rect& window_;
     const PassGoal& goal_;
     const RenderOptions& options_;
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -44,14 +44,16 @@ class ProgressiveRender {
 };
 
 RenderResult ProgressiveRender::pass(int number) const {
-    EstimatorSettings settings = settings_;
+    estimate::EstimatorSettings settings = settings_;
     settings.seed = sample::pass_seed(settings.seed, static_cast<std::uint64_t>(number));
     RenderOptions options = options_;
     options.with_weights = goal_.passes > 1;
     if (options_.on_progress) {
-        options.on_progress = [this](const Progress& progress) { options_.on_progress(whole_progress(progress)); };
+        options.on_progress = [this](const parallel::Progress& progress) {
+            options_.on_progress(whole_progress(progress));
+        };
     }
-    return render::render(image_, Estimator(settings), window_, options);
+    return render::render(image_, estimate::Estimator(settings), window_, options);
 }
 
 int ProgressiveRender::expected_passes() const {
@@ -61,7 +63,7 @@ int ProgressiveRender::expected_passes() const {
                       goal_.passes);
 }
 
-Progress ProgressiveRender::whole_progress(const Progress& of_pass) const {
+parallel::Progress ProgressiveRender::whole_progress(const parallel::Progress& of_pass) const {
     const double now_s = seconds();
     double fraction = (result_.passes + of_pass.fraction) / expected_passes();
     if (goal_.time_limit_s > 0) fraction = std::max(fraction, now_s / goal_.time_limit_s);
@@ -71,7 +73,7 @@ Progress ProgressiveRender::whole_progress(const Progress& of_pass) const {
 // Adds a pass that is whole. Of a pair, the first waits in the result's film for the second.
 void ProgressiveRender::add(RenderResult rendered) {
     const int number = result_.passes++;
-    const Film& film = rendered.film;
+    const film::Film& film = rendered.film;
     if (number == 1) sum_.add(result_.render.film);
     if (number >= 1) sum_.add(film);
     if (number % 2 == 1) meter_.add_pair(result_.render.film, film, sum_);
@@ -149,12 +151,13 @@ bool passes_differ(scene::EstimatorKind kind) {
            kind != scene::EstimatorKind::uniform;
 }
 
-int bytes_a_pixel_of_passes(const Estimator& estimator) {
+int bytes_a_pixel_of_passes(const estimate::Estimator& estimator) {
     return estimator.has_random_weights() ? kWeightedPassBytes : kPassBytes;
 }
 
-ProgressiveResult render_progressively(const integrate::ImageFunction& image, const EstimatorSettings& settings,
-                                       const Window& window, const PassGoal& goal, const RenderOptions& options) {
+ProgressiveResult render_progressively(const integrate::ImageFunction& image,
+                                       const estimate::EstimatorSettings& settings, const film::Rect& window,
+                                       const PassGoal& goal, const RenderOptions& options) {
     if (goal.passes < 1 || goal.passes > kMostPasses) throw std::invalid_argument("passes are 1 to 1000000");
     if (goal.passes > 1 && !passes_differ(settings.kind)) {
         throw std::invalid_argument("passes of an estimator without random positions are all alike");

@@ -47,11 +47,12 @@ struct ProgressiveResult {
 bool passes_differ(scene::EstimatorKind kind);
 
 // Bytes that each pixel takes while several passes are added up.
-int bytes_a_pixel_of_passes(const Estimator& estimator);
+int bytes_a_pixel_of_passes(const estimate::Estimator& estimator);
 
 // Throws std::invalid_argument for what render() refuses, and for more than one pass where passes do not differ.
 // on_progress tells of the whole: of the predicted passes, or of the time limit where that comes first.
-ProgressiveResult render_progressively(const integrate::ImageFunction& image, const EstimatorSettings& settings,
-                                       const Window& window, const PassGoal& goal, const RenderOptions& options = {});
+ProgressiveResult render_progressively(const integrate::ImageFunction& image,
+                                       const estimate::EstimatorSettings& settings, const film::Rect& window,
+                                       const PassGoal& goal, const RenderOptions& options = {});
 
 }  // namespace strata::render

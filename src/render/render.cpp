@@ -13,34 +13,36 @@ constexpr int kWholeFilmStrip = 64;
 
 }  // namespace
 
-FilmExtras film_extras(const RenderOptions& options, const Estimator& estimator) {
+film::FilmExtras film_extras(const RenderOptions& options, const estimate::Estimator& estimator) {
     return {.costs = options.with_costs, .weights = options.with_weights && estimator.has_random_weights()};
 }
 
-Window cells_of(const Window& window, const Estimator& estimator) {
+film::Rect cells_of(const film::Rect& window, const estimate::Estimator& estimator) {
     const int reach = estimator.weights().reach();
     return {window.x0 - reach, window.y0 - reach, window.x1 + reach, window.y1 + reach};
 }
 
-RenderResult render(const integrate::ImageFunction& image, const Estimator& estimator, const Window& window,
-                    const RenderOptions& options) {
-    Film film;
-    RenderResult result = render_strips(image, estimator, window, options, kWholeFilmStrip, [&](const Film& strip) {
-        if (film.pixels().empty()) film = Film(window, film_extras(options, estimator));
-        film.paste(strip);
-    });
+RenderResult render(const integrate::ImageFunction& image, const estimate::Estimator& estimator,
+                    const film::Rect& window, const RenderOptions& options) {
+    film::Film film;
+    RenderResult result =
+        render_strips(image, estimator, window, options, kWholeFilmStrip, [&](const film::Film& strip) {
+            if (film.pixels().empty()) film = film::Film(window, film_extras(options, estimator));
+            film.paste(strip);
+        });
     result.film = std::move(film);
     return result;
 }
 
-RenderResult render_strips(const integrate::ImageFunction& image, const Estimator& estimator, const Window& window,
-                           const RenderOptions& options, int strip_rows, StripSink sink) {
+RenderResult render_strips(const integrate::ImageFunction& image, const estimate::Estimator& estimator,
+                           const film::Rect& window, const RenderOptions& options, int strip_rows,
+                           film::StripSink sink) {
     if (window.width() <= 0 || window.height() <= 0) throw std::invalid_argument("the window to render is empty");
     if (options.tile < 1) throw std::invalid_argument("a tile's side is at least 1");
     if (strip_rows < 1) throw std::invalid_argument("a strip has at least one row");
-    const Window owners = estimator.shared() ? cells_of(window, estimator) : window;
+    const film::Rect owners = estimator.shared() ? cells_of(window, estimator) : window;
     RenderContext context(image, estimator, options, std::int64_t{1} * owners.width() * owners.height());
-    const StripLayout layout{window, strip_rows};
+    const film::StripLayout layout{window, strip_rows};
     RenderResult result;
     if (estimator.shared()) {
         render_shared(context, layout, std::move(sink), result);

@@ -1,26 +1,26 @@
 // From an image function to a film: in parallel, and the same bits for any number of threads, tile size and window.
 #pragma once
 
+#include "src/estimate/estimator.h"
+#include "src/film/film.h"
+#include "src/film/row_stream.h"
 #include "src/integrate/image_function.h"
-#include "src/render/cancel.h"
-#include "src/render/estimator.h"
-#include "src/render/film.h"
-#include "src/render/progress.h"
-#include "src/render/strip_film.h"
+#include "src/parallel/cancel.h"
+#include "src/parallel/progress.h"
 
 namespace strata::render {
 
 struct RenderOptions {
-    int threads = 0;                      // 0: as many as the machine has
-    int tile = 32;                        // side in pixels, >= 1
-    ProgressCallback on_progress;         // may be empty; called from any thread, one call at a time
-    const CancelToken* cancel = nullptr;  // looked at between batches
-    bool with_costs = false;              // films hold what pixels cost
-    bool with_weights = false;            // films hold pixels' sums of weights, where these differ from seed to seed
+    int threads = 0;                                // 0: as many as the machine has
+    int tile = 32;                                  // side in pixels, >= 1
+    parallel::ProgressCallback on_progress;         // may be empty; called from any thread, one call at a time
+    const parallel::CancelToken* cancel = nullptr;  // looked at between batches
+    bool with_costs = false;                        // films hold what pixels cost
+    bool with_weights = false;  // films hold pixels' sums of weights, where these differ from seed to seed
 };
 
 struct RenderResult {
-    Film film;  // empty where strips were given away
+    film::Film film;  // empty where strips were given away
     std::int64_t finished_pixels = 0;
     std::size_t most_film_bytes = 0;  // of pixels held at once, those of `film` not counted
     integrate::Counters counters;
@@ -32,13 +32,14 @@ struct RenderResult {
 
 // Renders pixels [x0,x1) x [y0,y1) of the frame; the frame itself has no part in it, and the window may be anywhere.
 // Throws std::invalid_argument for an empty window or a tile below 1.
-RenderResult render(const integrate::ImageFunction& image, const Estimator& estimator, const Window& window,
-                    const RenderOptions& options = {});
+RenderResult render(const integrate::ImageFunction& image, const estimate::Estimator& estimator,
+                    const film::Rect& window, const RenderOptions& options = {});
 
 // The same pixels, given away in strips of `strip_rows` >= 1 rows while the render goes on: of the picture only a few
 // strips are held at any time. The sink is called from any thread and given the whole window, of a cancelled render
 // too. What it throws is thrown again after the render, which goes on without calling it: to stop, request cancelling.
-RenderResult render_strips(const integrate::ImageFunction& image, const Estimator& estimator, const Window& window,
-                           const RenderOptions& options, int strip_rows, StripSink sink);
+RenderResult render_strips(const integrate::ImageFunction& image, const estimate::Estimator& estimator,
+                           const film::Rect& window, const RenderOptions& options, int strip_rows,
+                           film::StripSink sink);
 
 }  // namespace strata::render

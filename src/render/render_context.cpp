@@ -2,25 +2,25 @@
 
 #include <algorithm>
 
-#include "src/render/cpu_clock.h"
+#include "src/parallel/cpu_clock.h"
 
 namespace strata::render {
 
-RenderContext::RenderContext(const integrate::ImageFunction& image_function, const Estimator& pixel_estimator,
+RenderContext::RenderContext(const integrate::ImageFunction& image_function, const estimate::Estimator& pixel_estimator,
                              const RenderOptions& render_options, std::int64_t total_work)
     : image(image_function),
       estimator(pixel_estimator),
       options(render_options),
       progress(total_work, render_options.on_progress),
-      seam_(render_options.threads),
-      workers_(static_cast<std::size_t>(seam_.threads())) {}
+      pool_(render_options.threads),
+      workers_(static_cast<std::size_t>(pool_.threads())) {}
 
 void RenderContext::run(std::int64_t count, const std::function<void(Worker&, std::int64_t)>& body) {
-    seam_.run(count, [&](int worker_number, std::int64_t index) {
+    pool_.run(count, [&](int worker_number, std::int64_t index) {
         Worker& worker = workers_[static_cast<std::size_t>(worker_number)];
-        const double start_s = thread_cpu_seconds();
+        const double start_s = parallel::thread_cpu_seconds();
         body(worker, index);
-        worker.cpu_seconds += thread_cpu_seconds() - start_s;
+        worker.cpu_seconds += parallel::thread_cpu_seconds() - start_s;
     });
 }
 
@@ -61,7 +61,7 @@ void RenderContext::finish(RenderResult& result) const {
         result.counters += worker.counters;
         result.cpu_seconds += worker.cpu_seconds;
     }
-    result.threads = seam_.threads();
+    result.threads = pool_.threads();
     result.seconds = progress.seconds();
 }
 

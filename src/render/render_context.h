@@ -6,14 +6,14 @@
 #include <span>
 #include <vector>
 
+#include "src/parallel/thread_pool.h"
 #include "src/render/render.h"
-#include "src/render/task_seam.h"
 
 namespace strata::render {
 
 // Of one thread at a time; buffers are kept from tile to tile.
 struct alignas(64) Worker {
-    SampleSet samples;
+    estimate::SampleSet samples;
     std::vector<glm::ivec2> owners;  // pixels or cells of `samples`
     std::vector<glm::vec3> radiance;
     std::vector<integrate::SampleCost> costs;  // empty unless asked for
@@ -23,7 +23,7 @@ struct alignas(64) Worker {
 
 class RenderContext {
   public:
-    RenderContext(const integrate::ImageFunction& image_function, const Estimator& pixel_estimator,
+    RenderContext(const integrate::ImageFunction& image_function, const estimate::Estimator& pixel_estimator,
                   const RenderOptions& render_options, std::int64_t total_work);
 
     // Calls body(worker, index) for every index of [0,count), on all threads.
@@ -40,31 +40,31 @@ class RenderContext {
     // As many owners as fill a batch, at least one.
     std::size_t owners_a_batch() const;
 
-    int threads() const { return seam_.threads(); }
+    int threads() const { return pool_.threads(); }
 
     // Sums up what the workers did.
     void finish(RenderResult& result) const;
 
     const integrate::ImageFunction& image;
-    const Estimator& estimator;
+    const estimate::Estimator& estimator;
     const RenderOptions& options;
-    ProgressMeter progress;
+    parallel::ProgressMeter progress;
 
   private:
-    TaskSeam seam_;
+    parallel::ThreadPool pool_;
     std::vector<Worker> workers_;
 };
 
 // Estimators whose samples belong to a pixel: tiles, cut where strips are. Sets what `result` has of pixels.
-void render_tiles(RenderContext& context, const StripLayout& layout, StripSink sink, RenderResult& result);
+void render_tiles(RenderContext& context, const film::StripLayout& layout, film::StripSink sink, RenderResult& result);
 
 // Estimators whose samples belong to a screen cell and count in many pixels.
-void render_shared(RenderContext& context, const StripLayout& layout, StripSink sink, RenderResult& result);
+void render_shared(RenderContext& context, const film::StripLayout& layout, film::StripSink sink, RenderResult& result);
 
 // What the films of such a render hold.
-FilmExtras film_extras(const RenderOptions& options, const Estimator& estimator);
+film::FilmExtras film_extras(const RenderOptions& options, const estimate::Estimator& estimator);
 
 // Cells whose samples can reach the window's pixels.
-Window cells_of(const Window& window, const Estimator& estimator);
+film::Rect cells_of(const film::Rect& window, const estimate::Estimator& estimator);
 
 }  // namespace strata::render

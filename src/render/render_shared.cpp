@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "src/render/render_accumulators.h"
+#include "src/estimate/render_accumulators.h"
 #include "src/render/render_context.h"
 
 namespace strata::render {
@@ -18,11 +18,11 @@ constexpr int kStripColumns = 64;
 
 class SharedRender {
   public:
-    SharedRender(RenderContext& context, const StripLayout& layout, StripSink sink);
+    SharedRender(RenderContext& context, const film::StripLayout& layout, film::StripSink sink);
 
     void render();
 
-    const StripFilm& film() const { return film_; }
+    const film::RowStream& film() const { return film_; }
 
   private:
     struct Run {
@@ -30,7 +30,7 @@ class SharedRender {
     };
 
     glm::ivec2 cell(std::int64_t index) const;
-    CellSamples samples_of(std::int64_t index, const Run& run) const;
+    estimate::CellSamples samples_of(std::int64_t index, const Run& run) const;
     int accumulator_rows() const;
     void evaluate(const Run& run);
     void set_costs(const Worker& worker);
@@ -42,20 +42,20 @@ class SharedRender {
     int finished_rows_end(const Run& run) const;
 
     RenderContext& context_;
-    StripFilm film_;
-    const Window& window_;
-    Window cells_;
+    film::RowStream film_;
+    const film::Rect& window_;
+    film::Rect cells_;
     int reach_;
     std::size_t samples_a_cell_;
     std::int64_t cells_a_run_;
     std::vector<float> fraction_u_, fraction_v_;  // of the run's samples
     std::vector<glm::vec3> radiance_;
-    PixelAccumulators accumulators_;
+    estimate::PixelAccumulators accumulators_;
     int finished_end_;   // pixel rows above are in the film
     int given_end_ = 0;  // strips above are given away
 };
 
-std::int64_t cells_in_a_run(const Window& cells, std::size_t samples_a_cell) {
+std::int64_t cells_in_a_run(const film::Rect& cells, std::size_t samples_a_cell) {
     const std::size_t bytes = samples_a_cell * (2 * sizeof(float) + sizeof(glm::vec3));
     const std::int64_t total = std::int64_t{1} * cells.width() * cells.height();
     const std::int64_t fitting = static_cast<std::int64_t>(std::max<std::size_t>(1, kRunBytes / bytes));
@@ -63,11 +63,11 @@ std::int64_t cells_in_a_run(const Window& cells, std::size_t samples_a_cell) {
 }
 
 // Strips that hold rows of one run, finished or given away beside the next; with the rows that wait for others.
-int most_open(const StripLayout& layout, int reach) {
+int most_open(const film::StripLayout& layout, int reach) {
     return 2 * ((static_cast<int>(kRunRows) + 2 * reach) / layout.rows + 2);
 }
 
-SharedRender::SharedRender(RenderContext& context, const StripLayout& layout, StripSink sink)
+SharedRender::SharedRender(RenderContext& context, const film::StripLayout& layout, film::StripSink sink)
     : context_(context),
       film_(layout, std::vector<int>(static_cast<std::size_t>(layout.count()), 1),
             most_open(layout, context.estimator.weights().reach()), film_extras(context.options, context.estimator),
@@ -93,7 +93,7 @@ glm::ivec2 SharedRender::cell(std::int64_t index) const {
     return {cells_.x0 + static_cast<int>(index % cells_.width()), cells_.y0 + static_cast<int>(index / cells_.width())};
 }
 
-CellSamples SharedRender::samples_of(std::int64_t index, const Run& run) const {
+estimate::CellSamples SharedRender::samples_of(std::int64_t index, const Run& run) const {
     const std::size_t first = static_cast<std::size_t>(index - run.first) * samples_a_cell_;
     return {cell(index), std::span(fraction_u_).subspan(first, samples_a_cell_),
             std::span(fraction_v_).subspan(first, samples_a_cell_),
@@ -117,7 +117,7 @@ void SharedRender::give_away(Worker& worker, int strips_end) {
 
 void SharedRender::evaluate(const Run& run) {
     const auto block = static_cast<std::int64_t>(context_.owners_a_batch());
-    const StripLayout& layout = film_.layout();
+    const film::StripLayout& layout = film_.layout();
     const int whole_strips = finished_end_ == window_.y1 ? layout.count() : layout.strip_at(finished_end_);
     // One thread gives away what the run before has finished.
     context_.run(1 + (run.last - run.first + block - 1) / block, [&](Worker& worker, std::int64_t index) {
@@ -191,7 +191,8 @@ void SharedRender::add_to_strip(const Run& run, int x0, int x1) {
 
 }  // namespace
 
-void render_shared(RenderContext& context, const StripLayout& layout, StripSink sink, RenderResult& result) {
+void render_shared(RenderContext& context, const film::StripLayout& layout, film::StripSink sink,
+                   RenderResult& result) {
     SharedRender shared(context, layout, std::move(sink));
     shared.render();
     shared.film().check();

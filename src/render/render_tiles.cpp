@@ -2,8 +2,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "src/film/tiles.h"
 #include "src/render/render_context.h"
-#include "src/render/tiles.h"
 
 namespace strata::render {
 
@@ -31,7 +31,7 @@ WeightedMean weighted_mean(std::span<const glm::vec3> radiance, std::span<const 
 }
 
 // The pixels of worker.owners; false if cancelled.
-bool render_pixels(RenderContext& context, Worker& worker, Film& film) {
+bool render_pixels(RenderContext& context, Worker& worker, film::Film& film) {
     context.estimator.pixel_samples(worker.owners, worker.samples);
     worker.radiance.resize(worker.samples.u.size());
     if (!context.evaluate(worker, worker.radiance)) return false;
@@ -52,7 +52,7 @@ bool render_pixels(RenderContext& context, Worker& worker, Film& film) {
     return true;
 }
 
-void render_tile(RenderContext& context, Worker& worker, const Window& tile, Film& film) {
+void render_tile(RenderContext& context, Worker& worker, const film::Rect& tile, film::Film& film) {
     const std::size_t batch = context.owners_a_batch();
     worker.owners.clear();
     for (int y = tile.y0; y < tile.y1; ++y) {
@@ -77,37 +77,37 @@ int most_open(int threads, std::int64_t tiles_a_strip) {
 // The tiles of all strips, one strip's after the other's.
 class TiledStrips {
   public:
-    TiledStrips(RenderContext& context, const StripLayout& layout, StripSink sink)
+    TiledStrips(RenderContext& context, const film::StripLayout& layout, film::StripSink sink)
         : context_(context),
           tiles_a_strip_(tiles(layout, 0).count()),
           total_(tiles_a_strip_ * (layout.count() - 1) + tiles(layout, layout.count() - 1).count()),
           film_(layout, parts(layout), most_open(context.threads(), tiles_a_strip_),
                 film_extras(context.options, context.estimator), std::move(sink)) {
-        const Window first = tiles(layout, 0).tile(0);
+        const film::Rect first = tiles(layout, 0).tile(0);
         most_ahead_ = std::clamp<std::int64_t>(kPixelsAhead / (std::int64_t{1} * first.width() * first.height()), 1,
-                                               kSpreadTiles);
+                                               film::kSpreadTiles);
     }
 
     void render();
 
-    const StripFilm& film() const { return film_; }
+    const film::RowStream& film() const { return film_; }
 
   private:
-    TileGrid tiles(const StripLayout& layout, int strip) const {
-        return TileGrid(layout.strip(strip), context_.options.tile);
+    film::TileGrid tiles(const film::StripLayout& layout, int strip) const {
+        return film::TileGrid(layout.strip(strip), context_.options.tile);
     }
-    std::vector<int> parts(const StripLayout& layout) const;
-    void render_in_order(Worker& worker, int strip, const Window& tile);
-    void render_ahead(Worker& worker, int strip, const Window& tile);
+    std::vector<int> parts(const film::StripLayout& layout) const;
+    void render_in_order(Worker& worker, int strip, const film::Rect& tile);
+    void render_ahead(Worker& worker, int strip, const film::Rect& tile);
 
     RenderContext& context_;
     std::int64_t tiles_a_strip_;  // but in the last strip, which may be lower
     std::int64_t total_;
     std::int64_t most_ahead_ = 1;
-    StripFilm film_;
+    film::RowStream film_;
 };
 
-std::vector<int> TiledStrips::parts(const StripLayout& layout) const {
+std::vector<int> TiledStrips::parts(const film::StripLayout& layout) const {
     std::vector<int> parts;
     parts.reserve(static_cast<std::size_t>(layout.count()));
     for (int strip = 0; strip < layout.count(); ++strip) {
@@ -119,36 +119,36 @@ std::vector<int> TiledStrips::parts(const StripLayout& layout) const {
 // Ends a part of a strip whatever happens to it: others wait for it.
 class PartScope {
   public:
-    PartScope(StripFilm& film, int strip, Worker& worker) : film_(film), strip_(strip), worker_(worker) {}
+    PartScope(film::RowStream& film, int strip, Worker& worker) : film_(film), strip_(strip), worker_(worker) {}
     ~PartScope() { worker_.cpu_seconds -= film_.end_part(strip_); }
     PartScope(const PartScope&) = delete;
     PartScope& operator=(const PartScope&) = delete;
 
   private:
-    StripFilm& film_;
+    film::RowStream& film_;
     int strip_;
     Worker& worker_;
 };
 
-void TiledStrips::render_in_order(Worker& worker, int strip, const Window& tile) {
+void TiledStrips::render_in_order(Worker& worker, int strip, const film::Rect& tile) {
     const PartScope part(film_, strip, worker);
     if (!context_.cancelled()) render_tile(context_, worker, tile, film_.open(strip));
 }
 
-void TiledStrips::render_ahead(Worker& worker, int strip, const Window& tile) {
+void TiledStrips::render_ahead(Worker& worker, int strip, const film::Rect& tile) {
     const PartScope part(film_, strip, worker);
     if (context_.cancelled()) return;
-    Film film(tile, film_extras(context_.options, context_.estimator));
+    film::Film film(tile, film_extras(context_.options, context_.estimator));
     render_tile(context_, worker, tile, film);
     film_.set_aside(strip, std::move(film));
 }
 
 void TiledStrips::render() {
-    const std::int64_t ahead = spread_count(total_, most_ahead_);
+    const std::int64_t ahead = film::spread_count(total_, most_ahead_);
     context_.run(total_, [&](Worker& worker, std::int64_t position) {
-        const std::int64_t index = spread_first(position, total_, most_ahead_);
+        const std::int64_t index = film::spread_first(position, total_, most_ahead_);
         const int strip = static_cast<int>(index / tiles_a_strip_);
-        const Window tile = tiles(film_.layout(), strip).tile(index % tiles_a_strip_);
+        const film::Rect tile = tiles(film_.layout(), strip).tile(index % tiles_a_strip_);
         if (position < ahead) {
             render_ahead(worker, strip, tile);
         } else {
@@ -159,7 +159,7 @@ void TiledStrips::render() {
 
 }  // namespace
 
-void render_tiles(RenderContext& context, const StripLayout& layout, StripSink sink, RenderResult& result) {
+void render_tiles(RenderContext& context, const film::StripLayout& layout, film::StripSink sink, RenderResult& result) {
     TiledStrips strips(context, layout, std::move(sink));
     strips.render();
     strips.film().check();

@@ -15,7 +15,7 @@
 //   - the position of the centre, rounded once an octave and axis: sqrt(3) A1 2^-53 |centre + offset / w|, of which
 //   four
 //     times as much is taken. How rounding displaces centre and ray is not part of it but of the ball's size
-//     (render/cell_windows.cpp).
+//     (src/accel/cell_windows.cpp).
 #pragma once
 
 #include <cstdint>

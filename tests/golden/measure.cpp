@@ -13,25 +13,25 @@ namespace {
 
 render::RenderResult render_golden(const GoldenScene& golden, const scene::Scene& scene, const Cut& cut) {
     const auto image = integrate::make_image(scene, golden.tracer);
-    const render::EstimatorSettings settings = render::estimator_settings(scene);
-    const render::Window frame{0, 0, scene.film.width, scene.film.height};
-    const render::Window window = golden.crop.value_or(frame);
+    const estimate::EstimatorSettings settings = estimate::estimator_settings(scene);
+    const film::Rect frame{0, 0, scene.film.width, scene.film.height};
+    const film::Rect window = golden.crop.value_or(frame);
     render::RenderOptions options;
     options.threads = cut.threads;
     options.tile = cut.tile;
     options.with_costs = golden.with_costs;
-    if (golden.passes == 1) return render::render(*image, render::Estimator(settings), window, options);
+    if (golden.passes == 1) return render::render(*image, estimate::Estimator(settings), window, options);
     return render::render_progressively(*image, settings, window, {.passes = golden.passes}, options).render;
 }
 
-image::Picture picture_of(const render::Film& film, const scene::Film& frame) {
-    const render::Window& w = film.window();
+image::Picture picture_of(const film::Film& film, const scene::Film& frame) {
+    const film::Rect& w = film.window();
     image::Picture picture{frame.width, frame.height, w.x0, w.y0, w.x1, w.y1, {}};
     for (const glm::vec3& pixel : film.pixels()) picture.rgb.insert(picture.rgb.end(), {pixel.r, pixel.g, pixel.b});
     return picture;
 }
 
-std::string digest_of_costs(const render::Film& film, glm::length_t which) {
+std::string digest_of_costs(const film::Film& film, glm::length_t which) {
     std::vector<float> values;
     for (const glm::vec2& cost : film.costs()) values.push_back(cost[which]);
     return digest_text(std::span<const float>(values));

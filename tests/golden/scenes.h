@@ -5,18 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "src/film/film.h"
 #include "src/integrate/make_image.h"
-#include "src/render/film.h"
 #include "src/scene/scene.h"
 
 namespace strata::golden {
 
 struct GoldenScene {
     std::string name;
-    std::vector<std::string> keys;         // as for --set, over the defaults: keys outlive the structs that hold them
-    int passes = 1;                        // of N x N samples
-    std::optional<render::Window> crop{};  // half-open; nothing: the whole frame
-    bool with_costs = false;               // steps and evaluations of each pixel as well
+    std::vector<std::string> keys;     // as for --set, over the defaults: keys outlive the structs that hold them
+    int passes = 1;                    // of N x N samples
+    std::optional<film::Rect> crop{};  // half-open; nothing: the whole frame
+    bool with_costs = false;           // steps and evaluations of each pixel as well
     integrate::Tracer tracer = integrate::Tracer::fast;
 };
 

@@ -18,12 +18,12 @@ namespace strata::render::testing {
 // A picture by independent unbiased samples, far more than those that are judged by it, and the mean square of its own
 // error as its passes' differences tell.
 struct Reference {
-    Film film;
+    film::Film film;
     double squared_error = 0;
 };
 
-inline Reference make_reference(const integrate::ImageFunction& image, EstimatorSettings settings, const Window& window,
-                                int N, int passes) {
+inline Reference make_reference(const integrate::ImageFunction& image, estimate::EstimatorSettings settings,
+                                const film::Rect& window, int N, int passes) {
     settings.kind = scene::EstimatorKind::stratified;
     settings.N = N;
     settings.seed = 987'654'321;
@@ -32,7 +32,7 @@ inline Reference make_reference(const integrate::ImageFunction& image, Estimator
 }
 
 // The mean square of a picture's error. That of the reference is independent of it, and comes off.
-inline double squared_error(const Film& film, const Reference& reference) {
+inline double squared_error(const film::Film& film, const Reference& reference) {
     double sum = 0;
     for (std::size_t i = 0; i < film.pixels().size(); ++i) {
         const glm::dvec3 error = glm::dvec3(film.pixels()[i]) - glm::dvec3(reference.film.pixels()[i]);
@@ -48,13 +48,13 @@ struct StatedError {
     double worst = 0;             // the largest error / its bound
 };
 
-inline StatedError judge_statements(const integrate::ImageFunction& image, const EstimatorSettings& settings,
-                                    const Window& window, const PassGoal& goal, const Reference& reference,
+inline StatedError judge_statements(const integrate::ImageFunction& image, const estimate::EstimatorSettings& settings,
+                                    const film::Rect& window, const PassGoal& goal, const Reference& reference,
                                     int trials) {
     StatedError judged;
     judged.trials = trials;
     for (int trial = 0; trial < trials; ++trial) {
-        EstimatorSettings s = settings;
+        estimate::EstimatorSettings s = settings;
         s.seed = 5000 + static_cast<std::uint64_t>(trial);
         RenderOptions options;
         options.threads = 1;
@@ -71,7 +71,8 @@ inline StatedError judge_statements(const integrate::ImageFunction& image, const
     return judged;
 }
 
-inline void log_statements(const std::string& what, const EstimatorSettings& settings, const StatedError& judged) {
+inline void log_statements(const std::string& what, const estimate::EstimatorSettings& settings,
+                           const StatedError& judged) {
     MESSAGE(what, ", ", scene::name_of(settings.kind), " N = ", settings.N, ": ", judged.passes, " passes, error ",
             judged.actual, ", told ", judged.told, "; the bound held in ", judged.held, " of ", judged.trials,
             ", at worst ", judged.worst, " of it");
@@ -85,8 +86,9 @@ inline constexpr scene::EstimatorKind kRandomised[] = {
 inline constexpr int kLeastHeld = 90;
 
 // For every estimator that takes passes.
-inline void check_statements(const std::string& what, const integrate::ImageFunction& image, EstimatorSettings settings,
-                             const Window& window, const PassGoal& goal, const Reference& reference) {
+inline void check_statements(const std::string& what, const integrate::ImageFunction& image,
+                             estimate::EstimatorSettings settings, const film::Rect& window, const PassGoal& goal,
+                             const Reference& reference) {
     for (const scene::EstimatorKind kind : kRandomised) {
         settings.kind = kind;
         const StatedError judged = judge_statements(image, settings, window, goal, reference, 100);
@@ -98,7 +100,7 @@ inline void check_statements(const std::string& what, const integrate::ImageFunc
 }
 
 // A picture that each estimator errs on. 24x16 pixels.
-inline constexpr Window kSmallWindow{3, 5, 27, 21};
+inline constexpr film::Rect kSmallWindow{3, 5, 27, 21};
 
 // Rings, an edge and a smooth slope, all at rest.
 inline auto rings() {

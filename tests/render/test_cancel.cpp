@@ -13,7 +13,10 @@
 #include "tests/render/image_functions.h"
 
 using namespace strata;
+using namespace strata::estimate;
+using namespace strata::film;
 using namespace strata::integrate;
+using namespace strata::parallel;
 using namespace strata::render;
 using namespace strata::render::testing;
 using scene::EstimatorKind;
@@ -40,7 +43,7 @@ class CancelAfter : public ImageFunction {
 
 TEST_CASE("a cancelled render has some pixels, each as in the whole render, and zero elsewhere") {
     const auto image = busy();
-    const Window window{0, 0, 160, 140};
+    const Rect window{0, 0, 160, 140};
     for (const EstimatorKind kind : kAllEstimators) {
         const bool shared = kind == EstimatorKind::shared || kind == EstimatorKind::shared_sobol;
         const Estimator estimator({kind, shared ? 8 : 4, 4, 1, 1, {0.04, 0.01}});
@@ -86,7 +89,7 @@ TEST_CASE("a render of slow samples stops within 0.2 s of the request") {
         RenderOptions options;
         options.cancel = &token;
         const RenderResult result =
-            render::render(slow, Estimator({kind, N, 4, 1, 1, {}}), Window{0, 0, 400, 400}, options);
+            render::render(slow, Estimator({kind, N, 4, 1, 1, {}}), Rect{0, 0, 400, 400}, options);
         const auto stopped = std::chrono::steady_clock::now();
         canceller.join();
         CHECK(result.cancelled);
@@ -134,7 +137,7 @@ TEST_CASE("a signal that was ignored before stays ignored") {
         const int end = end_of([&] {
             std::signal(signal, SIG_IGN);
             static CancelToken token;
-            render::call_on_signals([](int, bool) { _exit(1); });
+            parallel::call_on_signals([](int, bool) { _exit(1); });
             cancel_on_signals(token);
             std::raise(signal);
             if (token.requested()) _exit(2);
@@ -148,7 +151,7 @@ TEST_CASE("the hook hears of the first signal and of the one that ends the progr
         static CancelToken token;
         static int first_calls = 0;
         std::signal(SIGTERM, SIG_DFL);
-        render::call_on_signals([](int, bool is_last) {
+        parallel::call_on_signals([](int, bool is_last) {
             if (is_last) _exit(first_calls == 1 ? 77 : 78);
             ++first_calls;
         });

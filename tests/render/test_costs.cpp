@@ -8,6 +8,8 @@
 #include "src/render/render.h"
 
 using namespace strata;
+using namespace strata::estimate;
+using namespace strata::film;
 using namespace strata::integrate;
 using namespace strata::render;
 using scene::EstimatorKind;
@@ -15,7 +17,7 @@ using scene::SurfaceKind;
 
 namespace {
 
-constexpr Window kFrame{0, 0, 48, 70};
+constexpr Rect kFrame{0, 0, 48, 70};
 
 scene::Scene small_scene(SurfaceKind kind, EstimatorKind estimator) {
     scene::Scene scene;
@@ -34,7 +36,7 @@ scene::Scene small_scene(SurfaceKind kind, EstimatorKind estimator) {
     return scene;
 }
 
-RenderResult render_scene(const scene::Scene& scene, const Window& window, int threads, int tile, bool with_costs,
+RenderResult render_scene(const scene::Scene& scene, const Rect& window, int threads, int tile, bool with_costs,
                           Tracer tracer = Tracer::fast) {
     RenderOptions options;
     options.threads = threads;
@@ -102,7 +104,7 @@ TEST_CASE("costs do not depend on threads, tiles and crop, and change no pixel")
         CHECK(plain.film.pixels() == whole.film.pixels());
         CHECK(plain.counters.noise_evaluations == whole.counters.noise_evaluations);
         CHECK(render_scene(scene, kFrame, 4, 7, true).film.costs() == whole.film.costs());
-        const Window crop{5, 9, 31, 66};
+        const Rect crop{5, 9, 31, 66};
         const RenderResult part = render_scene(scene, crop, 2, 16, true);
         int wrong = 0;
         for (int y = crop.y0; y < crop.y1; ++y) {

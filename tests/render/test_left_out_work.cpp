@@ -8,6 +8,8 @@
 #include "src/render/render.h"
 
 using namespace strata;
+using namespace strata::estimate;
+using namespace strata::film;
 using namespace strata::integrate;
 using namespace strata::render;
 using scene::SurfaceKind;
@@ -16,7 +18,7 @@ namespace {
 
 constexpr SurfaceKind kKinds[] = {SurfaceKind::terrain, SurfaceKind::hyperterrain, SurfaceKind::planet,
                                   SurfaceKind::isosurface};
-constexpr Window kFrame{0, 0, 32, 18};
+constexpr Rect kFrame{0, 0, 32, 18};
 
 scene::Scene small_scene(SurfaceKind kind) {
     scene::Scene scene;

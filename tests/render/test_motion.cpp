@@ -9,6 +9,8 @@
 #include "src/render/render.h"
 
 using namespace strata;
+using namespace strata::estimate;
+using namespace strata::film;
 using namespace strata::integrate;
 using namespace strata::render;
 using scene::SurfaceKind;

@@ -12,7 +12,10 @@
 #include "tests/render/image_functions.h"
 
 using namespace strata;
+using namespace strata::estimate;
+using namespace strata::film;
 using namespace strata::integrate;
+using namespace strata::parallel;
 using namespace strata::render;
 using namespace strata::render::testing;
 using scene::EstimatorKind;
@@ -27,7 +30,7 @@ EstimatorSettings settings(EstimatorKind kind, int N = 2, std::uint64_t seed = 1
     return {kind, N, 4, 1, seed, {0.04, 0.01}};
 }
 
-ProgressiveResult progressive(const ImageFunction& image, const EstimatorSettings& s, const Window& window,
+ProgressiveResult progressive(const ImageFunction& image, const EstimatorSettings& s, const Rect& window,
                               const PassGoal& goal, int threads = 1) {
     RenderOptions options;
     options.threads = threads;
@@ -64,7 +67,7 @@ double rmse(const Film& film, const Film& truth) {
 
 TEST_CASE("one pass is the plain render, and so is pass 0 of any seed") {
     const auto image = busy();
-    const Window window{-3, 2, 14, 9};
+    const Rect window{-3, 2, 14, 9};
     for (const EstimatorKind kind : kAllEstimators) {
         const ProgressiveResult one = progressive(image, settings(kind), window, {});
         CHECK(one.passes == 1);
@@ -76,7 +79,7 @@ TEST_CASE("one pass is the plain render, and so is pass 0 of any seed") {
 
 TEST_CASE("K passes are the mean of K plain renders with the passes' seeds, each counting by its sum of weights") {
     const auto image = busy();
-    const Window window{0, 0, 11, 6};
+    const Rect window{0, 0, 11, 6};
     for (const EstimatorKind kind : kRandomised) {
         for (const int passes : {2, 3, 6}) {
             std::vector<glm::dvec3> sum(66, glm::dvec3(0));
@@ -108,7 +111,7 @@ TEST_CASE("K passes are the mean of K plain renders with the passes' seeds, each
 TEST_CASE(
     "what made it stop leaves no trace: by target or time, the same bits as by number; threads, tiles, crops too") {
     const auto image = busy();
-    const Window window{0, 0, 24, 14};
+    const Rect window{0, 0, 24, 14};
     for (const EstimatorKind kind : {EstimatorKind::stratified, EstimatorKind::shared}) {
         const ProgressiveResult by_target =
             progressive(image, settings(kind), window, {.passes = kMostPasses, .target_rmse = 0.03}, 2);
@@ -138,7 +141,7 @@ TEST_CASE(
 
 TEST_CASE("the first pass is done however short the time, and passes bound a target that is out of reach") {
     const auto image = busy();
-    const Window window{0, 0, 8, 8};
+    const Rect window{0, 0, 8, 8};
     const ProgressiveResult short_time =
         progressive(image, settings(EstimatorKind::random), window, {.passes = kMostPasses, .time_limit_s = 1e-9});
     CHECK(short_time.passes == 1);
@@ -168,7 +171,7 @@ TEST_CASE("passes that would all be alike are refused") {
 }
 
 TEST_CASE("an interrupted render keeps its whole passes; interrupted in the first, its finished pixels") {
-    const Window window{0, 0, 32, 32};
+    const Rect window{0, 0, 32, 32};
     constexpr std::uint64_t kPass = 32 * 32 * 4;
     for (const double passes : {0.4, 2.5, 3.7}) {
         CancelToken token;
@@ -193,7 +196,7 @@ TEST_CASE("an interrupted render keeps its whole passes; interrupted in the firs
 TEST_CASE("the noise told from differences is that against the truth, and its upper end holds 95 % of the time") {
     const Wave wave{0.13, -0.21, 0.0};
     const auto image = wave.image();
-    const Window window{0, 0, 16, 9};
+    const Rect window{0, 0, 16, 9};
     Film truth(window);
     for (int y = 0; y < 9; ++y) {
         for (int x = 0; x < 16; ++x) {
@@ -234,7 +237,7 @@ TEST_CASE("the noise told from differences is that against the truth, and its up
 
 TEST_CASE("a target is kept: stopping at the first look below it does not favour lucky passes") {
     const auto image = Formula([](double u, double v, double) { return glm::vec3(3 * u + 7 * v > 120 ? 1.0f : 0.0f); });
-    const Window window{4, 4, 20, 13};
+    const Rect window{4, 4, 20, 13};
     constexpr double kTarget = 0.02;
     EstimatorSettings s = settings(EstimatorKind::stratified, 32);
     s.shutter = {};

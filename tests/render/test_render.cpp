@@ -6,12 +6,14 @@
 #include <stdexcept>
 #include <vector>
 
+#include "src/film/tiles.h"
 #include "src/filter/bspline.h"
 #include "src/render/render.h"
-#include "src/render/tiles.h"
 #include "tests/render/image_functions.h"
 
 using namespace strata;
+using namespace strata::estimate;
+using namespace strata::film;
 using namespace strata::integrate;
 using namespace strata::render;
 using namespace strata::render::testing;
@@ -23,7 +25,7 @@ EstimatorSettings settings(EstimatorKind kind, int N, int m, double open_s = 0.0
     return {kind, N, m, l, 5, {0.04, open_s}};
 }
 
-RenderResult render_with(const ImageFunction& image, const EstimatorSettings& estimator, const Window& window,
+RenderResult render_with(const ImageFunction& image, const EstimatorSettings& estimator, const Rect& window,
                          int threads = 2, int tile = 32) {
     RenderOptions options;
     options.threads = threads;
@@ -34,7 +36,7 @@ RenderResult render_with(const ImageFunction& image, const EstimatorSettings& es
 // Pixels of `part`'s window that differ in any bit from those of `whole`.
 int differing(const Film& part, const Film& whole) {
     int count = 0;
-    const Window& window = part.window();
+    const Rect& window = part.window();
     for (int y = window.y0; y < window.y1; ++y) {
         for (int x = window.x0; x < window.x1; ++x) {
             count += std::memcmp(&part.at(x, y), &whole.at(x, y), sizeof(glm::vec3)) != 0 ? 1 : 0;
@@ -43,14 +45,13 @@ int differing(const Film& part, const Film& whole) {
     return count;
 }
 
-constexpr Window kFrame{0, 0, 70, 41};
+constexpr Rect kFrame{0, 0, 70, 41};
 
 }  // namespace
 
 TEST_CASE("the bits of a picture depend neither on threads, nor on tile size, nor on the crop window") {
     const auto image = busy();
-    const std::array<Window, 5> crops{
-        {{0, 0, 70, 41}, {3, 5, 4, 6}, {31, 7, 69, 40}, {0, 40, 70, 41}, {69, 0, 70, 41}}};
+    const std::array<Rect, 5> crops{{{0, 0, 70, 41}, {3, 5, 4, 6}, {31, 7, 69, 40}, {0, 40, 70, 41}, {69, 0, 70, 41}}};
     for (const EstimatorKind kind : kAllEstimators) {
         for (const int m : {1, 4, 5}) {
             for (const int N : {1, 3, 4}) {
@@ -60,7 +61,7 @@ TEST_CASE("the bits of a picture depend neither on threads, nor on tile size, no
                 int variant = 0;
                 for (const int threads : {1, 2, 3, 7}) {
                     for (const int tile : {8, 16, 33, 64}) {
-                        const Window& crop = crops[static_cast<std::size_t>(variant++) % crops.size()];
+                        const Rect& crop = crops[static_cast<std::size_t>(variant++) % crops.size()];
                         const RenderResult part = render_with(image, estimator, crop, threads, tile);
                         REQUIRE(differing(part.film, whole.film) == 0);
                         if (crop == kFrame) REQUIRE(part.counters.rays == whole.counters.rays);
@@ -74,7 +75,7 @@ TEST_CASE("the bits of a picture depend neither on threads, nor on tile size, no
 
 TEST_CASE("many samples a pixel: pictures that take several batches and buffers keep their bits") {
     const auto image = busy();
-    const Window frame{0, 0, 24, 13};
+    const Rect frame{0, 0, 24, 13};
     for (const EstimatorKind kind : {EstimatorKind::stratified, EstimatorKind::shared, EstimatorKind::shared_sobol}) {
         const EstimatorSettings estimator = settings(kind, 64, 4);
         const RenderResult whole = render_with(image, estimator, frame, 1, 64);
@@ -105,7 +106,7 @@ TEST_CASE("a pixel is the weighted sum of its probed samples") {
     for (const EstimatorKind kind : kAllEstimators) {
         for (const int m : {1, 4, 5}) {
             const Estimator estimator(settings(kind, 3, m));
-            const Window window{20, 10, 24, 13};
+            const Rect window{20, 10, 24, 13};
             const RenderResult result = render::render(image, estimator, window);
             for (int y = window.y0; y < window.y1; ++y) {
                 for (int x = window.x0; x < window.x1; ++x) {
@@ -134,7 +135,7 @@ TEST_CASE("shared samples are weighted by n_m at the pixel, cell by cell") {
     for (const EstimatorKind kind : {EstimatorKind::shared, EstimatorKind::shared_sobol}) {
         for (const int m : {1, 2, 3, 4, 5, 9}) {
             const Estimator estimator(settings(kind, 2, m));
-            const Window window{12, 7, 15, 9};
+            const Rect window{12, 7, 15, 9};
             const RenderResult result = render::render(image, estimator, window);
             for (int y = window.y0; y < window.y1; ++y) {
                 for (int x = window.x0; x < window.x1; ++x) {
@@ -180,7 +181,7 @@ TEST_CASE("every cell or pixel is sampled exactly once") {
 TEST_CASE("extreme shapes and orders render completely and without NaN") {
     const auto image = busy();
     for (const EstimatorKind kind : kAllEstimators) {
-        for (const Window& window : {Window{0, 0, 1, 1}, Window{0, 0, 1, 2000}, Window{0, 0, 2000, 1}}) {
+        for (const Rect& window : {Rect{0, 0, 1, 1}, Rect{0, 0, 1, 2000}, Rect{0, 0, 2000, 1}}) {
             const RenderResult result = render_with(image, settings(kind, 1, 4), window);
             REQUIRE(result.film.complete());
             REQUIRE(!result.cancelled);

@@ -9,12 +9,14 @@
 #include "tests/render/image_functions.h"
 
 using namespace strata;
+using namespace strata::estimate;
+using namespace strata::film;
 using namespace strata::render;
 using namespace strata::render::testing;
 
 TEST_CASE("sums of shared samples have the same bits on every SIMD target") {
     const auto image = busy();
-    const Window window{0, 0, 37, 23};
+    const Rect window{0, 0, 37, 23};
     for (const int m : {1, 2, 3, 4, 5, 8, 9, 31, 100}) {
         const Estimator estimator({scene::EstimatorKind::shared, 2, m, 1, 1, {}});
         std::vector<glm::vec3> expected;

@@ -7,6 +7,8 @@
 #include "tests/render/image_functions.h"
 
 using namespace strata;
+using namespace strata::estimate;
+using namespace strata::film;
 using namespace strata::render;
 using namespace strata::render::testing;
 using scene::EstimatorKind;
@@ -81,7 +83,7 @@ TEST_CASE("super-sampling approaches the box filter whatever the order") {
     const Statistics s = errors(EstimatorKind::super, 64, 1, 1, wave, 2);
     CHECK(std::fabs(s.mean_error) < 1e-4);
     const auto image = wave.image();
-    const Window pixel{0, 0, 1, 1};
+    const Rect pixel{0, 0, 1, 1};
     const Estimator box({EstimatorKind::super, 5, 1, 1, 1, {}});
     const Estimator high({EstimatorKind::super, 5, 9, 1, 1, {}});
     CHECK(render::render(image, box, pixel).film.at(0, 0) == render::render(image, high, pixel).film.at(0, 0));
@@ -94,7 +96,7 @@ TEST_CASE("a ramp is reproduced: exactly by symmetric grids, within its statisti
         for (const int m : {1, 4, 5}) {
             const int N = 4;
             const RenderResult result =
-                render::render(image, Estimator({kind, N, m, 1, 3, {}}), Window{0, 0, side, side});
+                render::render(image, Estimator({kind, N, m, 1, 3, {}}), Rect{0, 0, side, side});
             double sum = 0;
             double squares = 0;
             for (int y = 0; y < side; ++y) {

@@ -7,6 +7,7 @@
 #include "tests/render/stated_error.h"
 
 using namespace strata;
+using namespace strata::estimate;
 using namespace strata::render;
 using namespace strata::render::testing;
 using scene::EstimatorKind;

@@ -7,6 +7,8 @@
 #include "tests/render/stated_error.h"
 
 using namespace strata;
+using namespace strata::estimate;
+using namespace strata::film;
 using namespace strata::integrate;
 using namespace strata::render;
 using namespace strata::render::testing;
@@ -35,7 +37,7 @@ TEST_CASE("pictures of surfaces that stopped at a target are as good as stated")
         scene.film.width = 24;
         scene.film.height = 16;
         const auto image = make_image(scene);
-        const Window window{0, 0, 24, 16};
+        const Rect window{0, 0, 24, 16};
         EstimatorSettings settings = estimator_settings(scene);
         const Reference reference = make_reference(*image, settings, window, 32, 32);
         for (const int N : {1, 2}) {

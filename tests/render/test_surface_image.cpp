@@ -14,6 +14,8 @@
 #include "src/render/render.h"
 
 using namespace strata;
+using namespace strata::estimate;
+using namespace strata::film;
 using namespace strata::integrate;
 using namespace strata::render;
 using scene::SurfaceKind;
@@ -124,7 +126,7 @@ TEST_CASE("the reference tracer gives the same picture but for silhouettes") {
         scene.surface.octaves = 3;
         scene.sampling.N = 1;
         const Estimator estimator(estimator_settings(scene));
-        const Window frame{0, 0, 24, 14};
+        const Rect frame{0, 0, 24, 14};
         const RenderResult fast = render::render(*make_image(scene, Tracer::fast), estimator, frame);
         const RenderResult reference = render::render(*make_image(scene, Tracer::reference), estimator, frame);
         const Difference apart = difference(fast.film, reference.film);

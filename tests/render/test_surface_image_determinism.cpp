@@ -10,6 +10,8 @@
 #include "src/render/render.h"
 
 using namespace strata;
+using namespace strata::estimate;
+using namespace strata::film;
 using namespace strata::integrate;
 using namespace strata::render;
 using scene::EstimatorKind;
@@ -17,7 +19,7 @@ using scene::SurfaceKind;
 
 namespace {
 
-constexpr Window kFrame{0, 0, 64, 36};
+constexpr Rect kFrame{0, 0, 64, 36};
 
 scene::Scene small_scene(SurfaceKind kind) {
     scene::Scene scene;
@@ -46,7 +48,7 @@ scene::Scene small_scene(SurfaceKind kind) {
     return scene;
 }
 
-RenderResult render_scene(const scene::Scene& scene, const Window& window, int threads, int tile) {
+RenderResult render_scene(const scene::Scene& scene, const Rect& window, int threads, int tile) {
     RenderOptions options;
     options.threads = threads;
     options.tile = tile;
@@ -55,7 +57,7 @@ RenderResult render_scene(const scene::Scene& scene, const Window& window, int t
 
 int differing(const Film& part, const Film& whole) {
     int count = 0;
-    const Window& window = part.window();
+    const Rect& window = part.window();
     for (int y = window.y0; y < window.y1; ++y) {
         for (int x = window.x0; x < window.x1; ++x) {
             count += std::memcmp(&part.at(x, y), &whole.at(x, y), sizeof(glm::vec3)) != 0;
@@ -101,7 +103,7 @@ Samples random_samples(std::mt19937_64& random, std::size_t count) {
 }  // namespace
 
 TEST_CASE("a surface's picture and its work are the same for any threads, tiles and crops, shadows on") {
-    constexpr std::array<Window, 4> kCrops{{{0, 0, 64, 36}, {5, 3, 38, 22}, {63, 0, 64, 36}, {30, 17, 31, 18}}};
+    constexpr std::array<Rect, 4> kCrops{{{0, 0, 64, 36}, {5, 3, 38, 22}, {63, 0, 64, 36}, {30, 17, 31, 18}}};
 
     for (const SurfaceKind kind : {SurfaceKind::terrain, SurfaceKind::isosurface}) {
         for (const EstimatorKind estimator : {EstimatorKind::none, EstimatorKind::stratified, EstimatorKind::shared}) {
@@ -117,7 +119,7 @@ TEST_CASE("a surface's picture and its work are the same for any threads, tiles 
                 for (const int tile : {8, 16, 33, 64}) {
                     CAPTURE(threads);
                     CAPTURE(tile);
-                    const Window& crop = kCrops[static_cast<std::size_t>(variant++) % kCrops.size()];
+                    const Rect& crop = kCrops[static_cast<std::size_t>(variant++) % kCrops.size()];
                     const RenderResult part = render_scene(scene, crop, threads, tile);
                     CHECK(differing(part.film, whole.film) == 0);
                     if (crop != kFrame) continue;

@@ -11,6 +11,8 @@
 #include "src/scene/validate.h"
 
 using namespace strata;
+using namespace strata::estimate;
+using namespace strata::film;
 using namespace strata::integrate;
 using namespace strata::render;
 using scene::Scene;
@@ -60,7 +62,7 @@ void render_into(const Scene& scene, Outcome& outcome) {
     }
     ++outcome.rendered;
     const auto image = make_image(scene);
-    const Window frame{0, 0, scene.film.width, scene.film.height};
+    const Rect frame{0, 0, scene.film.width, scene.film.height};
     RenderOptions options;
     options.threads = 1;
     const RenderResult result = render::render(*image, Estimator(estimator_settings(scene)), frame, options);

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <string>
 
+#include "src/estimate/estimator.h"
 #include "src/integrate/make_image.h"
-#include "src/render/estimator.h"
 #include "src/render/render.h"
 #include "src/scene/builtin.h"
 #include "src/scene/toml_reader.h"
@@ -35,13 +35,13 @@ struct Verdicts {
 };
 
 inline void judge(const std::string& name, const scene::Scene& scene, Verdicts& verdicts) {
-    const render::Window window{0, 0, scene.film.width, scene.film.height};
+    const film::Rect window{0, 0, scene.film.width, scene.film.height};
     const CountsBetween between =
         predict(scene, window, {.tracer = integrate::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = true})
             .between;
     const auto image = integrate::make_image(scene);
     const integrate::Counters actual =
-        render::render(*image, render::Estimator(render::estimator_settings(scene)), window).counters;
+        render::render(*image, estimate::Estimator(estimate::estimator_settings(scene)), window).counters;
     const std::string what = name + ' ' + std::to_string(scene.film.width) + " N = " + std::to_string(scene.sampling.N);
     verdicts.judge(what, "shadow rays", between.shadow_rays, actual.shadow_rays);
     verdicts.judge(what, "hits", between.hits, actual.hits);

@@ -1,4 +1,4 @@
-#include "tools/already_there.h"
+#include "tools/job/already_there.h"
 
 #include <doctest/doctest.h>
 
@@ -11,8 +11,8 @@
 #include "tools/figures/films.h"
 #include "tools/figures/record.h"
 
-using namespace strata;
 using namespace strata::tools;
+using namespace strata;
 
 namespace {
 

@@ -12,10 +12,10 @@
 #include "src/trace/placement.h"
 #include "tools/animate/frames.h"
 #include "tools/animate/timing.h"
-#include "tools/errors.h"
+#include "tools/cli/errors.h"
 
-using namespace strata;
 using namespace strata::tools;
+using namespace strata;
 
 TEST_CASE("frames are one number or first-last, both included") {
     CHECK(parse_frames("7").first() == 7);

@@ -2,18 +2,18 @@
 
 #include <cmath>
 
-#include "tools/aov.h"
-#include "tools/errors.h"
+#include "tools/cli/errors.h"
+#include "tools/job/aov.h"
 
-using namespace strata;
 using namespace strata::tools;
+using namespace strata;
 
 namespace {
 
 // Strips of a picture whose costs are (x, 2 y).
-void add_strips(CostPicture& picture, const render::Window& window, int rows) {
+void add_strips(CostPicture& picture, const film::Rect& window, int rows) {
     for (int y0 = window.y0; y0 < window.y1; y0 += rows) {
-        render::Film strip({window.x0, y0, window.x1, std::min(y0 + rows, window.y1)}, {.costs = true});
+        film::Film strip({window.x0, y0, window.x1, std::min(y0 + rows, window.y1)}, {.costs = true});
         for (int y = y0; y < strip.window().y1; ++y)
             for (int x = window.x0; x < window.x1; ++x)
                 strip.set_cost(x, y, {static_cast<float>(x), 2.0f * static_cast<float>(y)});
@@ -34,7 +34,7 @@ TEST_CASE("names of AOVs are taken in any order, make each channel once, and no 
 }
 
 TEST_CASE("values of a strip are those of its pixels in the order of the channels") {
-    render::Film strip({0, 0, 2, 1}, {.costs = true});
+    film::Film strip({0, 0, 2, 1}, {.costs = true});
     strip.set_cost(0, 0, {1, 2});
     strip.set_cost(1, 0, {3, 4});
     CHECK(aov_values({Aov::steps}, strip) == std::vector<float>{1, 3});
@@ -43,7 +43,7 @@ TEST_CASE("values of a strip are those of its pixels in the order of the channel
 }
 
 TEST_CASE("the cost picture of a large window is small, and the same whatever strips it came in") {
-    const render::Window window{3, 5, 3 + 2 * kLongestCostSide + 1, 5 + 40};
+    const film::Rect window{3, 5, 3 + 2 * kLongestCostSide + 1, 5 + 40};
     image::Canvas first;
     for (const int rows : {64, 16, 7}) {
         CostPicture picture(Aov::steps, window);
@@ -59,7 +59,7 @@ TEST_CASE("the cost picture of a large window is small, and the same whatever st
 }
 
 TEST_CASE("false colour grows brighter with the cost, from black to the scale's top") {
-    const render::Window window{0, 0, 101, 8};
+    const film::Rect window{0, 0, 101, 8};
     CostPicture picture(Aov::steps, window);
     add_strips(picture, window, 64);
     const image::Canvas canvas = picture.draw("");

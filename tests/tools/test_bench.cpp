@@ -13,13 +13,13 @@
 #include "tools/bench/run.h"
 #include "tools/bench/subset.h"
 #include "tools/bench/variants.h"
-#include "tools/errors.h"
-#include "tools/process.h"
+#include "tools/cli/errors.h"
+#include "tools/cli/process.h"
 
 namespace {
 
-using namespace strata;
 using namespace strata::tools::bench;
+using namespace strata;
 using doctest::Approx;
 
 std::vector<Section> all_sections() {
@@ -77,7 +77,7 @@ TEST_CASE("blocks are whole, aligned, inside the frame, and each there once") {
                 REQUIRE_FALSE(subset.windows.empty());
                 std::set<std::pair<int, int>> corners;
                 std::int64_t pixels = 0;
-                for (const render::Window& w : subset.windows) {
+                for (const film::Rect& w : subset.windows) {
                     REQUIRE((0 <= w.x0 && w.x0 < w.x1 && w.x1 <= width && 0 <= w.y0 && w.y0 < w.y1 && w.y1 <= height));
                     REQUIRE(corners.insert({w.x0, w.y0}).second);
                     pixels += std::int64_t{1} * w.width() * w.height();
@@ -98,7 +98,7 @@ TEST_CASE("blocks are whole, aligned, inside the frame, and each there once") {
 TEST_CASE("a subset is the same every time, another by another seed") {
     const auto corners = [](std::uint64_t seed) {
         std::set<std::pair<int, int>> all;
-        for (const render::Window& w : subset_of(1920, 1080, 100, {1'000'000, 16}, {seed, seed, seed, seed}).windows)
+        for (const film::Rect& w : subset_of(1920, 1080, 100, {1'000'000, 16}, {seed, seed, seed, seed}).windows)
             all.insert({w.x0, w.y0});
         return all;
     };
@@ -297,10 +297,10 @@ TEST_CASE("phases add up by name, and their shares are told and drawn") {
 
 namespace {
 
-bool measure_round(Measurement& m, const render::CancelToken& cancel) {
+bool measure_round(Measurement& m, const parallel::CancelToken& cancel) {
     CaseRound round(m.what);
     for (std::size_t piece = 0; piece < round.pieces(); ++piece) {
-        if (!round.measure_piece(cancel, [](const render::Progress&) {})) return false;
+        if (!round.measure_piece(cancel, [](const parallel::Progress&) {})) return false;
     }
     round.add_to(m);
     return true;
@@ -313,7 +313,7 @@ TEST_CASE("every round of a case does the same work, whatever the time") {
     what.scene.film.width = 64;
     what.scene.film.height = 36;
     what.scene.sampling.N = 2;
-    const render::CancelToken cancel;
+    const parallel::CancelToken cancel;
     Measurement m{.what = what};
     REQUIRE(measure_round(m, cancel));
     const integrate::Counters first = m.counters;
@@ -337,8 +337,8 @@ TEST_CASE("a run that is cancelled in its second round keeps the first, of every
     Plan plan;
     plan.cases = {small, other};
     for (const int rounds_done : {0, 1, 2}) {
-        render::CancelToken cancel;
-        const auto show = [&](const render::Progress& progress) {
+        parallel::CancelToken cancel;
+        const auto show = [&](const parallel::Progress& progress) {
             if (progress.fraction > 0.5 * rounds_done + 0.1) cancel.request();
         };
         const Results results = run(plan, 2, show, cancel);

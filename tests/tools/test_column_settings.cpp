@@ -1,5 +1,5 @@
 // The settings of pictures side by side: what entries mean, how they are labelled, and what is refused.
-#include "tools/column_settings.h"
+#include "tools/job/column_settings.h"
 
 #include <doctest/doctest.h>
 
@@ -9,10 +9,10 @@
 
 #include "src/scene/keys.h"
 #include "src/scene/scene_error.h"
-#include "tools/errors.h"
+#include "tools/cli/errors.h"
 
-using namespace strata;
 using namespace strata::tools;
+using namespace strata;
 
 namespace {
 

@@ -131,7 +131,7 @@ TEST_CASE("a checkered plane is what brute force makes of it, above, at and belo
     for (const int m : {1, 2, 4, 5}) {
         for (const double horizon : {0.3, 0.25}) {
             scene.checker = {1.3, 0.9, horizon};
-            const render::Window window{10, 2, 14, 16};
+            const film::Rect window{10, 2, 14, 16};
             const auto truth = tools::exact_picture(scene, m, window);
             REQUIRE(truth);
             const auto function = [&](double u, double v) {

@@ -5,20 +5,20 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "src/estimate/estimator.h"
 #include "src/integrate/make_image.h"
-#include "src/render/estimator.h"
 #include "src/render/render.h"
 #include "src/scene/builtin.h"
 #include "src/scene/toml_reader.h"
 #include "src/scene/validate.h"
 #include "tests/image/scratch_folder.h"
-#include "tools/errors.h"
+#include "tools/cli/errors.h"
 #include "tools/explain/explanation.h"
 #include "tools/explain/pilot.h"
-#include "tools/settings_mark.h"
+#include "tools/job/settings_mark.h"
 
-using namespace strata;
 using namespace strata::tools;
+using namespace strata;
 
 namespace {
 
@@ -30,11 +30,11 @@ scene::Scene small_builtin(const scene::BuiltinScene& builtin) {
     return scene;
 }
 
-render::Window whole(const scene::Scene& scene) { return {0, 0, scene.film.width, scene.film.height}; }
+film::Rect whole(const scene::Scene& scene) { return {0, 0, scene.film.width, scene.film.height}; }
 
-integrate::Counters count(const scene::Scene& scene, const render::Window& window, integrate::Tracer tracer) {
+integrate::Counters count(const scene::Scene& scene, const film::Rect& window, integrate::Tracer tracer) {
     const auto image = integrate::make_image(scene, tracer);
-    return render::render(*image, render::Estimator(render::estimator_settings(scene)), window).counters;
+    return render::render(*image, estimate::Estimator(estimate::estimator_settings(scene)), window).counters;
 }
 
 // The largest factor between predicted and actual counts, and its name.
@@ -52,7 +52,7 @@ struct Worst {
     }
 };
 
-Worst worst_prediction(const scene::Scene& scene, const render::Window& window, integrate::Tracer tracer) {
+Worst worst_prediction(const scene::Scene& scene, const film::Rect& window, integrate::Tracer tracer) {
     const Prediction prediction =
         predict(scene, window, {.tracer = tracer, .threads = 1, .passes = 1, .with_pilot = true});
     const integrate::Counters actual = count(scene, window, tracer);
@@ -140,7 +140,7 @@ TEST_CASE("a pilot takes a hundredth of the rays, no fewer than its least and no
     for (const int N : {1, 2, 3, 7, 64}) {
         for (const int side : {1, 2, 50, 300}) {
             scene.sampling.N = N;
-            const render::EstimatorSettings settings = render::estimator_settings(scene);
+            const estimate::EstimatorSettings settings = estimate::estimator_settings(scene);
             const std::uint64_t rays = std::uint64_t{1} * N * N * side * side;
             const std::uint64_t allowed = pilot_rays(rays, Tracer::fast);
             const PilotRun run = run_pilot(*image, settings, {0, 0, side, side}, allowed);
@@ -202,7 +202,7 @@ TEST_CASE("the plan names what is left out, and the counts agree") {
         scene.sampling.estimator = static_cast<scene::EstimatorKind>(random() % 9);
         const Plan plan = make_plan(scene, integrate::Tracer::fast);
         const integrate::Counters counters = count(scene, whole(scene), integrate::Tracer::fast);
-        const render::Estimator estimator(render::estimator_settings(scene));
+        const estimate::Estimator estimator(estimate::estimator_settings(scene));
         CHECK(feature(plan, "shadow rays").needed == (counters.shadow_rays > 0));
         CHECK((feature(plan, "2-D noise").needed || feature(plan, "3-D noise").needed) ==
               (counters.noise_evaluations > 0));

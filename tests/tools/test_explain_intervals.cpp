@@ -6,9 +6,9 @@
 
 #include "tests/tools/explained_counts.h"
 
-using namespace strata;
-using namespace strata::tools;
 using namespace strata::tools::testing;
+using namespace strata::tools;
+using namespace strata;
 
 TEST_CASE("counts of every built-in scene lie within their intervals, at several sizes and N") {
     Verdicts verdicts;
@@ -37,7 +37,7 @@ TEST_CASE("an interval is a point where all rays were cast and nothing is shared
     Verdicts verdicts;
     judge("terrain", scene, verdicts);
     CHECK(verdicts.within == verdicts.counts);
-    const render::Window window{0, 0, 96, 54};
+    const film::Rect window{0, 0, 96, 54};
     const CountsBetween between = predict(scene, window, {.threads = 1}).between;
     CHECK(between.hits->low == between.hits->high);
     scene = builtin_of_size(*scene::find_builtin("terrain"), 640, 4);

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <set>
 
-#include "src/render/estimator.h"
+#include "src/estimate/estimator.h"
 #include "src/scene/keys.h"
 #include "src/scene/validate.h"
 #include "tests/image/scratch_folder.h"
@@ -18,12 +18,12 @@
 #include "tools/figures/page.h"
 #include "tools/figures/surface_areas.h"
 #include "tools/figures/wheel_rows.h"
-#include "tools/render_picture.h"
+#include "tools/job/render_picture.h"
 
 namespace {
 
-using namespace strata;
 using namespace strata::tools::figures;
+using namespace strata;
 
 constexpr int kN = 10;
 constexpr int kOrder = 4;
@@ -39,12 +39,12 @@ double cubic_cdf(double x) {
     return x <= 0 ? lower(x + 2) : 1 - lower(2 - x);
 }
 
-std::vector<render::ProbeSample> samples_of(scene::EstimatorKind kind, int pixel) {
-    render::EstimatorSettings settings;
+std::vector<estimate::ProbeSample> samples_of(scene::EstimatorKind kind, int pixel) {
+    estimate::EstimatorSettings settings;
     settings.kind = kind;
     settings.N = kN;
     settings.m = kOrder;
-    return render::Estimator(settings).probe_samples(pixel, 3 * pixel + 1);
+    return estimate::Estimator(settings).probe_samples(pixel, 3 * pixel + 1);
 }
 
 // Chi-squared of the samples' weight over kBins bins of equal probability.
@@ -102,7 +102,7 @@ TEST_CASE("stratified samples of figure 3: one in each of the N x N strata of pr
         const auto samples = samples_of(scene::EstimatorKind::stratified, pixel);
         REQUIRE(samples.size() == kN * kN);
         std::set<std::pair<int, int>> strata;
-        for (const render::ProbeSample& sample : samples) {
+        for (const estimate::ProbeSample& sample : samples) {
             CHECK(sample.weight == doctest::Approx(1.0 / (kN * kN)));
             strata.insert({static_cast<int>(cubic_cdf(sample.u) * kN), static_cast<int>(cubic_cdf(sample.v) * kN)});
         }
@@ -118,7 +118,7 @@ TEST_CASE("samples by density obey the cubic's distribution: chi-squared at a le
          {scene::EstimatorKind::stratified, scene::EstimatorKind::random, scene::EstimatorKind::sobol}) {
         std::vector<double> u, v;
         for (int pixel = 0; pixel < 60; ++pixel) {
-            for (const render::ProbeSample& sample : samples_of(kind, pixel)) {
+            for (const estimate::ProbeSample& sample : samples_of(kind, pixel)) {
                 u.push_back(cubic_cdf(sample.u));
                 v.push_back(cubic_cdf(sample.v));
             }
@@ -140,7 +140,7 @@ TEST_CASE("weighted samples of figure 3 spread the weight as the cubic does") {
         const double edge = 1.2;  // between cells of the grid
         double inside = 0, total = 0, variance = 0;
         for (int pixel = 0; pixel < 40; ++pixel) {
-            for (const render::ProbeSample& sample : samples_of(kind, pixel)) {
+            for (const estimate::ProbeSample& sample : samples_of(kind, pixel)) {
                 total += sample.weight;
                 if (std::abs(sample.u) < edge) inside += sample.weight;
                 variance += sample.weight * sample.u * sample.u;
@@ -232,10 +232,10 @@ TEST_CASE(
 TEST_CASE("the areas of figures 6 and 7 lie inside the surface's frame and show the same part at every size") {
     const scene::Scene paper = surface_scene(Size::paper);
     for (const auto area : {detail_of_figure_6, detail_of_figure_7}) {
-        const render::Window reference = area(Size::paper);
+        const film::Rect reference = area(Size::paper);
         for (const Size size : {Size::small, Size::paper, Size::large}) {
             const scene::Scene scene = surface_scene(size);
-            const render::Window w = area(size);
+            const film::Rect w = area(size);
             CHECK((w.x0 >= 0 && w.y0 >= 0 && w.x1 <= scene.film.width && w.y1 <= scene.film.height));
             CHECK(w.x0 * paper.film.width == reference.x0 * scene.film.width);
             CHECK(w.width() * paper.film.width == reference.width() * scene.film.width);

@@ -1,11 +1,11 @@
-#include "tools/picture_labels.h"
+#include "tools/job/picture_labels.h"
 
 #include <doctest/doctest.h>
 
-#include "tools/batch_progress.h"
+#include "tools/job/batch_progress.h"
 
-using namespace strata;
 using namespace strata::tools;
+using namespace strata;
 
 namespace {
 
@@ -43,8 +43,8 @@ TEST_CASE("pictures that cannot be told apart by their scenes go by their names"
 }
 
 TEST_CASE("several renders progress as one, by their weights, and never backwards") {
-    std::vector<render::Progress> shown;
-    BatchProgress batch(40, [&](const render::Progress& p) { shown.push_back(p); });
+    std::vector<parallel::Progress> shown;
+    BatchProgress batch(40, [&](const parallel::Progress& p) { shown.push_back(p); });
     for (const double weight : {10.0, 30.0}) {
         const auto callback = batch.next(weight);
         for (const double fraction : {0.0, 0.5, 1.0})

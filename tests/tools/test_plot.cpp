@@ -9,8 +9,8 @@
 
 #include "src/image/read.h"
 #include "tests/image/scratch_folder.h"
+#include "tools/cli/process.h"
 #include "tools/plot/script.h"
-#include "tools/process.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <set>
 
-#include "tools/errors.h"
+#include "tools/cli/errors.h"
 
 using namespace strata::tools;
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "src/image/format.h"
-#include "tools/process.h"
-#include "tools/temporary_folder.h"
+#include "tools/cli/process.h"
+#include "tools/cli/temporary_folder.h"
 
 namespace strata::tools {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "src/image/file_paths.h"
-#include "tools/errors.h"
+#include "tools/cli/errors.h"
 
 namespace strata::tools {
 

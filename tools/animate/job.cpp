@@ -14,10 +14,10 @@
 #include "src/scene/validate.h"
 #include "tools/animate/film.h"
 #include "tools/animate/sheet.h"
-#include "tools/clipping.h"
-#include "tools/errors.h"
-#include "tools/picture_metadata.h"
-#include "tools/process.h"
+#include "tools/cli/errors.h"
+#include "tools/cli/process.h"
+#include "tools/job/clipping.h"
+#include "tools/job/picture_metadata.h"
 
 namespace strata::tools {
 
@@ -208,7 +208,7 @@ std::vector<scene::Scene> frame_scenes(const AnimateJob& job, int frame) {
 image::Metadata frame_metadata(const AnimateJob& job, int frame) {
     scene::Scene scene = job.scene;
     scene.shutter.frame = frame;
-    const render::Window whole{0, 0, scene.film.width, scene.film.height};
+    const film::Rect whole{0, 0, scene.film.width, scene.film.height};
     image::Metadata metadata = picture_metadata(scene, whole, job.tracer, job.format);
     if (!job.columns.empty()) metadata.set("strata:columns", job.columns_text);
     return metadata;

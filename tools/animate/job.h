@@ -9,8 +9,8 @@
 #include "src/scene/scene.h"
 #include "tools/animate/frames.h"
 #include "tools/animate/range.h"
-#include "tools/column_settings.h"
-#include "tools/scene_argument.h"
+#include "tools/cli/scene_argument.h"
+#include "tools/job/column_settings.h"
 
 namespace strata::tools {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "src/scene/key_text.h"
-#include "tools/errors.h"
-#include "tools/scene_argument.h"
+#include "tools/cli/errors.h"
+#include "tools/cli/scene_argument.h"
 
 namespace strata::tools {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "src/image/canvas.h"
-#include "tools/column_settings.h"
+#include "tools/job/column_settings.h"
 
 namespace strata::tools {
 

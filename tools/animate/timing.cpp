@@ -7,7 +7,7 @@
 
 #include "src/image/format.h"
 #include "tools/animate/film.h"
-#include "tools/errors.h"
+#include "tools/cli/errors.h"
 
 namespace strata::tools {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "tools/errors.h"
-#include "tools/text_file.h"
+#include "tools/cli/errors.h"
+#include "tools/cli/text_file.h"
 
 namespace strata::tools::bench {
 

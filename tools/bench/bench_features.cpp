@@ -110,11 +110,11 @@ class BareImage final : public integrate::ImageFunction {
 
 struct Side {
     std::unique_ptr<integrate::ImageFunction> image;
-    render::Estimator estimator;
+    estimate::Estimator estimator;
 
     explicit Side(const scene::Scene& scene, std::unique_ptr<integrate::ImageFunction> other = nullptr)
         : image(other ? std::move(other) : integrate::make_image(scene)),
-          estimator(render::estimator_settings(scene)) {}
+          estimator(estimate::estimator_settings(scene)) {}
 
     render::RenderResult render() const {
         render::RenderOptions options;

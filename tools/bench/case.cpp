@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "noise/hash.h"
-#include "tools/settings_mark.h"
+#include "tools/job/settings_mark.h"
 
 namespace strata::tools::bench {
 
@@ -22,7 +22,7 @@ std::string Case::id() const {
 
 std::string Case::mark() const {
     std::uint64_t sum = noise::mix64(static_cast<std::uint64_t>(threads));
-    for (const render::Window& window : subset.windows) {
+    for (const film::Rect& window : subset.windows) {
         sum = noise::mix64(sum + std::stoull(settings_mark(scene, window, tracer_word(tracer)), nullptr, 16));
     }
     return fmt::format("{:016x}", sum);

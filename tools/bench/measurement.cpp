@@ -33,7 +33,7 @@ double Measurement::ns_an_evaluation(Pick pick) const {
 struct CaseRound::State {
     const Case& what;
     std::unique_ptr<integrate::ImageFunction> image = integrate::make_image(what.scene, what.tracer);
-    render::Estimator estimator{render::estimator_settings(what.scene)};
+    estimate::Estimator estimator{estimate::estimator_settings(what.scene)};
     std::size_t next = 0;
     integrate::Counters counters{};
     double cpu_s = 0, wall_s = 0;
@@ -46,7 +46,7 @@ CaseRound::CaseRound(CaseRound&&) noexcept = default;
 
 std::size_t CaseRound::pieces() const { return state_->what.subset.windows.size(); }
 
-bool CaseRound::measure_piece(const render::CancelToken& cancel, const render::ProgressCallback& on_progress) {
+bool CaseRound::measure_piece(const parallel::CancelToken& cancel, const parallel::ProgressCallback& on_progress) {
     State& round = *state_;
     render::RenderOptions options;
     options.threads = round.what.threads;

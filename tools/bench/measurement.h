@@ -45,7 +45,7 @@ class CaseRound {
     std::size_t pieces() const;
 
     // Each once, in order. False, and the round is void, if cancelled.
-    bool measure_piece(const render::CancelToken& cancel, const render::ProgressCallback& on_progress);
+    bool measure_piece(const parallel::CancelToken& cancel, const parallel::ProgressCallback& on_progress);
 
     // Adds the round, all of whose pieces are measured, to the case's. Throws std::runtime_error if its counts are not
     // those of the rounds before: equal renders do equal work.

@@ -5,8 +5,8 @@
 #include <chrono>
 
 #include "tools/bench/own_folder.h"
-#include "tools/process.h"
-#include "tools/temporary_folder.h"
+#include "tools/cli/process.h"
+#include "tools/cli/temporary_folder.h"
 
 namespace strata::tools::bench {
 
@@ -30,7 +30,7 @@ MemoryResult render_alone(const char* id, int width, int height) {
 
 }  // namespace
 
-std::vector<MemoryResult> measure_memory(bool quick, const render::CancelToken& cancel) {
+std::vector<MemoryResult> measure_memory(bool quick, const parallel::CancelToken& cancel) {
     std::vector<MemoryResult> rows{render_alone(kMemoryUsual, 1920, 1080)};
     if (!quick && !cancel.requested()) rows.push_back(render_alone(kMemoryHuge, 16384, 16384));
     return rows;

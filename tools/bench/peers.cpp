@@ -11,8 +11,8 @@
 #include "src/scene/printer.h"
 #include "tools/bench/own_folder.h"
 #include "tools/bench/variants.h"
-#include "tools/installer.h"
-#include "tools/process.h"
+#include "tools/cli/installer.h"
+#include "tools/cli/process.h"
 
 namespace strata::tools::bench {
 
@@ -109,7 +109,7 @@ void Peers::measure_embree() {
     const int vertices = plan_.settings.quick ? kQuickVertices : kVertices;
     std::vector<std::string> words{(scratch_.path() / "scene.toml").string(), (scratch_.path() / "heights").string(),
                                    fmt::format("{}", vertices)};
-    for (const render::Window& w : what.subset.windows) {
+    for (const film::Rect& w : what.subset.windows) {
         words.push_back(fmt::format("{},{},{},{}", w.x0, w.y0, w.x1, w.y1));
     }
     const ProgramRun run = run_program(embree_, words);
@@ -126,7 +126,7 @@ void Peers::measure_embree() {
     result(kEmbreeSixteen, mesh).ns_a_ray.push_back(json.at("sixteen_ns").get<double>());
 }
 
-bool Peers::measure_round(const render::CancelToken& cancel) {
+bool Peers::measure_round(const parallel::CancelToken& cancel) {
     try {
         if (!embree_.empty()) measure_embree();
         for (const Povray& variant :

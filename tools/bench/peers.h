@@ -12,9 +12,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "src/render/cancel.h"
+#include "src/parallel/cancel.h"
 #include "tools/bench/results.h"
-#include "tools/temporary_folder.h"
+#include "tools/cli/temporary_folder.h"
 
 namespace strata::tools::bench {
 
@@ -24,7 +24,7 @@ class Peers {
     explicit Peers(const Plan& plan);
 
     // Every peer once; false if cancelled. Throws ProcessError when one fails.
-    bool measure_round(const render::CancelToken& cancel);
+    bool measure_round(const parallel::CancelToken& cancel);
 
     // Adds the peers and those that are missing. Only rounds that results counts are taken.
     void report(Results& results) const;

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
-#include "src/render/processors.h"
+#include "src/parallel/processors.h"
 #include "src/scene/key_text.h"
 #include "src/scene/suggest.h"
 #include "tools/bench/variants.h"
-#include "tools/errors.h"
+#include "tools/cli/errors.h"
 
 namespace strata::tools::bench {
 
@@ -163,7 +163,7 @@ void Planner::resolution() {
 
 // One piece, as a user renders it: the threads share a frame, not blocks.
 void Planner::threads() {
-    if (render::available_processors() < 2) return;
+    if (parallel::available_processors() < 2) return;
     const Size size = plan_.settings.quick || plan_.settings.rays ? Size{480, 270} : Size{1920, 1080};
     FigureCases& f = plan_.figures;
     f.one_thread = add_whole(hyperterrain(), size, 2, 1);

@@ -4,7 +4,7 @@
 #include <regex>
 
 #include "tools/bench/peers.h"
-#include "tools/process.h"
+#include "tools/cli/process.h"
 
 namespace strata::tools::bench {
 

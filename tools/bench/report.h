@@ -8,7 +8,7 @@
 #include "tools/bench/against.h"
 #include "tools/bench/figures.h"
 #include "tools/bench/results.h"
-#include "tools/planned_files.h"
+#include "tools/cli/planned_files.h"
 #include "tools/plot/plot.h"
 
 namespace strata::tools::bench {

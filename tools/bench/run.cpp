@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "tools/batch_progress.h"
 #include "tools/bench/memory.h"
 #include "tools/bench/peers.h"
+#include "tools/job/batch_progress.h"
 
 namespace strata::tools::bench {
 
@@ -19,7 +19,8 @@ double weight_of(const Case& what) {
 }
 
 // One more round of every case, piece by piece in turn. False if cancelled.
-bool measure_round(std::vector<Measurement>& measurements, BatchProgress& progress, const render::CancelToken& cancel) {
+bool measure_round(std::vector<Measurement>& measurements, BatchProgress& progress,
+                   const parallel::CancelToken& cancel) {
     std::vector<CaseRound> rounds;
     std::size_t pieces = 0;
     for (const Measurement& m : measurements) pieces = std::max(pieces, rounds.emplace_back(m.what).pieces());
@@ -37,8 +38,8 @@ bool measure_round(std::vector<Measurement>& measurements, BatchProgress& progre
 
 }  // namespace
 
-Results run(const Plan& plan, int rounds, const render::ProgressCallback& on_progress,
-            const render::CancelToken& cancel) {
+Results run(const Plan& plan, int rounds, const parallel::ProgressCallback& on_progress,
+            const parallel::CancelToken& cancel) {
     Results results{.plan = plan};
     double total = 0;
     for (const Case& what : plan.cases) {

@@ -5,14 +5,14 @@
 #include <memory>
 #include <optional>
 
-#include "src/render/cancel.h"
-#include "src/render/progress.h"
+#include "src/parallel/cancel.h"
+#include "src/parallel/progress.h"
 #include "tools/bench/results.h"
 
 namespace strata::tools::bench {
 
 // Cancelled: a round that was not finished is left out; without a whole one there are no measurements.
-Results run(const Plan& plan, int rounds, const render::ProgressCallback& on_progress,
-            const render::CancelToken& cancel);
+Results run(const Plan& plan, int rounds, const parallel::ProgressCallback& on_progress,
+            const parallel::CancelToken& cancel);
 
 }  // namespace strata::tools::bench

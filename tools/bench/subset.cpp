@@ -42,13 +42,13 @@ int part_of(std::uint32_t fraction, int extent, int side) {
     return pixel / side;
 }
 
-std::vector<render::Window> choose_blocks(const BlockGrid& grid, int width, int height, std::int64_t count,
-                                          std::uint64_t seed) {
+std::vector<film::Rect> choose_blocks(const BlockGrid& grid, int width, int height, std::int64_t count,
+                                      std::uint64_t seed) {
     const std::uint64_t seeds = noise::mix64(seed);
     const auto seed_u = static_cast<std::uint32_t>(seeds >> 32);
     const auto seed_v = static_cast<std::uint32_t>(seeds);
     std::vector<bool> taken(static_cast<std::size_t>(grid.count()));
-    std::vector<render::Window> windows;
+    std::vector<film::Rect> windows;
     // The sequence visits every block: it fills any grid in the end.
     for (std::uint32_t i = 0; std::ssize(windows) < count; ++i) {
         const auto point = sample::sobol_point(i);
@@ -70,7 +70,7 @@ std::vector<render::Window> choose_blocks(const BlockGrid& grid, int width, int 
 
 std::int64_t Subset::pixels() const {
     std::int64_t sum = 0;
-    for (const render::Window& window : windows) sum += std::int64_t{1} * window.width() * window.height();
+    for (const film::Rect& window : windows) sum += std::int64_t{1} * window.width() * window.height();
     return sum;
 }
 

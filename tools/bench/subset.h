@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/render/film.h"
+#include "src/film/film.h"
 
 namespace strata::tools::bench {
 
@@ -29,8 +29,8 @@ struct BlockSeeds {
 };
 
 struct Subset {
-    std::vector<render::Window> windows;  // disjoint; one, the frame, if it is whole
-    int block = 0;                        // px; 0: the whole frame
+    std::vector<film::Rect> windows;  // disjoint; one, the frame, if it is whole
+    int block = 0;                    // px; 0: the whole frame
 
     std::int64_t pixels() const;
     std::string text() const;  // "whole frame", "16 blocks of 64 px"

@@ -10,11 +10,11 @@
 
 #include "src/image/compare.h"
 #include "src/integrate/make_image.h"
-#include "src/render/processors.h"
+#include "src/parallel/processors.h"
 #include "src/render/render.h"
+#include "tools/cli/errors.h"
 #include "tools/converge/budget.h"
 #include "tools/converge/reference.h"
-#include "tools/errors.h"
 
 namespace strata::tools {
 
@@ -31,8 +31,8 @@ constexpr double kReport_s = 4;         // for the report and its plots
 
 class Run {
   public:
-    Run(const scene::Scene& scene, const ConvergeSettings& settings, render::ProgressPrinter& progress,
-        const render::CancelToken& cancel)
+    Run(const scene::Scene& scene, const ConvergeSettings& settings, ProgressPrinter& progress,
+        const parallel::CancelToken& cancel)
         : progress_(progress.callback()), cancel_(cancel) {
         all_.settings = settings;
         all_.scene = scene;
@@ -65,7 +65,7 @@ class Run {
     bool make_references();
     void measure();
     void measure(ConvergePoint& point, int round);
-    void compare(ConvergePoint& point, const render::Film& film);
+    void compare(ConvergePoint& point, const film::Film& film);
     void judge(ConvergePoint& point) const;
     void show_progress(double done_s, double total_s);
     render::RenderResult render(const Combination& combination, int N, std::uint64_t seed);
@@ -79,9 +79,9 @@ class Run {
 
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     Experiment all_;
-    render::ProgressCallback progress_;
-    const render::CancelToken& cancel_;
-    render::Window window_;
+    parallel::ProgressCallback progress_;
+    const parallel::CancelToken& cancel_;
+    film::Rect window_;
     std::vector<std::unique_ptr<integrate::ImageFunction>> images_;
     std::vector<Combination> combinations_;
     int reference_threads_ = 0;
@@ -101,7 +101,7 @@ void Run::combine() {
 
 render::RenderResult Run::render(const Combination& combination, int N, std::uint64_t seed) {
     all_.scene.sampling.seed = all_.first_seed + seed;
-    render::EstimatorSettings settings = render::estimator_settings(all_.scene);
+    estimate::EstimatorSettings settings = estimate::estimator_settings(all_.scene);
     all_.scene.sampling.seed = all_.first_seed;
     settings.kind = combination.estimator;
     settings.m = combination.m;
@@ -110,7 +110,7 @@ render::RenderResult Run::render(const Combination& combination, int N, std::uin
     options.threads = all_.settings.threads;
     options.cancel = &cancel_;
     render::RenderResult result =
-        render::render(*images_[combination.tracer], render::Estimator(settings), window_, options);
+        render::render(*images_[combination.tracer], estimate::Estimator(settings), window_, options);
     rays_ += result.counters.rays;
     return result;
 }
@@ -157,7 +157,7 @@ double Run::reference_cost_s(int largest_N) const {
         if (!has_exact_reference(all_.scene, m))
             sum += 2 * kPassesOfAHalf * std::pow(reference_N(largest_N), 2) * slowest;
     }
-    const double cores = render::available_processors();
+    const double cores = parallel::available_processors();
     return reference_threads_ == 0 ? sum / cores : sum;
 }
 
@@ -173,7 +173,7 @@ void Run::fit_budget() {
         throw UsageError(fmt::format(
             "--budget: too short: N = {} alone, with two seeds, takes about {}; allowed: more "
             "time, a smaller --size, fewer estimators or orders",
-            least, render::duration_text((reference_cost_s(least) + 2 * cost_s(least)) / kPlannedShare + kReport_s)));
+            least, duration_text((reference_cost_s(least) + 2 * cost_s(least)) / kPlannedShare + kReport_s)));
     }
     all_.dropped_Ns.assign(settings.Ns.begin() + static_cast<std::ptrdiff_t>(plan->Ns.size()), settings.Ns.end());
     settings.Ns = plan->Ns;
@@ -196,7 +196,7 @@ const Run::Combination& Run::combination_of(const ConvergePoint& point) const {
     });
 }
 
-void Run::compare(ConvergePoint& point, const render::Film& film) {
+void Run::compare(ConvergePoint& point, const film::Film& film) {
     const ConvergeReference& reference = all_.reference_of(point);
     image::Picture picture = image::make_picture(window_.width(), window_.height());
     std::vector<double> error;
@@ -297,8 +297,8 @@ Experiment Run::run() {
 
 }  // namespace
 
-Experiment run_experiment(const scene::Scene& scene, const ConvergeSettings& settings,
-                          render::ProgressPrinter& progress, const render::CancelToken& cancel) {
+Experiment run_experiment(const scene::Scene& scene, const ConvergeSettings& settings, ProgressPrinter& progress,
+                          const parallel::CancelToken& cancel) {
     return Run(scene, settings, progress, cancel).run();
 }
 

@@ -7,9 +7,9 @@
 
 #include "src/image/picture.h"
 #include "src/integrate/surface_image.h"
-#include "src/render/cancel.h"
-#include "src/render/progress_printer.h"
+#include "src/parallel/cancel.h"
 #include "src/scene/scene.h"
+#include "tools/cli/progress_printer.h"
 #include "tools/converge/statistics.h"
 
 namespace strata::tools {
@@ -82,7 +82,7 @@ bool deterministic(scene::EstimatorKind kind, const scene::Scene& scene);
 
 // Measures a valid scene's frame. Throws UsageError when the budget does not suffice for anything. Points without any
 // render have been removed.
-Experiment run_experiment(const scene::Scene& scene, const ConvergeSettings& settings,
-                          render::ProgressPrinter& progress, const render::CancelToken& cancel);
+Experiment run_experiment(const scene::Scene& scene, const ConvergeSettings& settings, ProgressPrinter& progress,
+                          const parallel::CancelToken& cancel);
 
 }  // namespace strata::tools

@@ -17,7 +17,7 @@ namespace {
 // Passes of the scene's seed that no picture will ever have.
 constexpr std::uint64_t kFirstHalf = 0x5265666572656e63u;
 
-render::Window frame_of(const scene::Scene& scene) { return {0, 0, scene.film.width, scene.film.height}; }
+film::Rect frame_of(const scene::Scene& scene) { return {0, 0, scene.film.width, scene.film.height}; }
 
 void finish(ConvergeReference& reference, const std::vector<glm::dvec3>& pixels) {
     double squares = 0;
@@ -52,16 +52,16 @@ bool has_exact_reference(const scene::Scene& scene, int m) {
 }
 
 std::optional<ConvergeReference> make_reference(const scene::Scene& scene, int m, int N, int threads,
-                                                const render::CancelToken& cancel) {
-    const render::Window window = frame_of(scene);
+                                                const parallel::CancelToken& cancel) {
+    const film::Rect window = frame_of(scene);
     if (const auto truth = exact_picture(scene, m, window)) return of_truth(scene, m, *truth);
     const auto image_function = integrate::make_image(scene);
-    render::EstimatorSettings settings = render::estimator_settings(scene);
+    estimate::EstimatorSettings settings = estimate::estimator_settings(scene);
     settings.kind = scene::EstimatorKind::shared_sobol;
     settings.N = N;
     settings.m = m;
     const std::uint64_t seed = settings.seed;
-    std::array<render::Film, 2> half;
+    std::array<film::Film, 2> half;
     for (std::uint64_t i = 0; i < 2; ++i) {
         settings.seed = sample::pass_seed(seed, kFirstHalf + i);
         render::RenderOptions options;

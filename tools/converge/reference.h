@@ -12,7 +12,7 @@ inline constexpr int kPassesOfAHalf = 2;
 // mean of two halves of kPassesOfAHalf renders, with seeds of their own, whose difference gives its error. Nothing when
 // cancelled.
 std::optional<ConvergeReference> make_reference(const scene::Scene& scene, int m, int N, int threads,
-                                                const render::CancelToken& cancel);
+                                                const parallel::CancelToken& cancel);
 
 // Whether make_reference() will not render.
 bool has_exact_reference(const scene::Scene& scene, int m);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/cli/planned_files.h"
 #include "tools/converge/analysis.h"
-#include "tools/planned_files.h"
 #include "tools/plot/plot.h"
 
 namespace strata::tools {

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "noise/simd_target.h"
-#include "src/render/progress_printer.h"
 #include "src/scene/enum_names.h"
+#include "tools/cli/progress_printer.h"
 #include "tools/converge/report.h"
 
 namespace strata::tools {
@@ -18,7 +18,7 @@ using scene::EstimatorKind;
 std::string time_text(double seconds) {
     if (seconds < 1e-3) return fmt::format("{:.3g} µs", 1e6 * seconds);
     if (seconds < 1) return fmt::format("{:.3g} ms", 1e3 * seconds);
-    return seconds < 100 ? fmt::format("{:.3g} s", seconds) : render::duration_text(seconds);
+    return seconds < 100 ? fmt::format("{:.3g} s", seconds) : duration_text(seconds);
 }
 
 std::string target_text(double target) { return fmt::format("1/{:.0f}", 1 / target); }

@@ -15,7 +15,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kRounding = 1e-13;  // of sums of a few hundred positive terms
 
 template <class Grey>
-std::vector<double> pixels(const render::Window& window, const Grey& grey) {
+std::vector<double> pixels(const film::Rect& window, const Grey& grey) {
     std::vector<double> values;
     values.reserve(static_cast<std::size_t>(window.width()) * static_cast<std::size_t>(window.height()));
     for (int y = window.y0; y < window.y1; ++y) {
@@ -24,7 +24,7 @@ std::vector<double> pixels(const render::Window& window, const Grey& grey) {
     return values;
 }
 
-Truth exact_edge(const scene::Edge& edge, const scene::Film& film, int m, const render::Window& window) {
+Truth exact_edge(const scene::Edge& edge, const scene::Film& film, int m, const film::Rect& window) {
     const double cosine = std::cos(edge.angle_deg * kDegree);
     const double sine = std::sin(edge.angle_deg * kDegree);
     const auto grey = [&](double u, double v) {
@@ -35,7 +35,7 @@ Truth exact_edge(const scene::Edge& edge, const scene::Film& film, int m, const 
 }
 
 // Symmetric filters leave linear functions as they are.
-Truth exact_ramp(const scene::Ramp& ramp, const scene::Film& film, const render::Window& window) {
+Truth exact_ramp(const scene::Ramp& ramp, const scene::Film& film, const film::Rect& window) {
     const double right = ramp.rise / film.width * std::cos(ramp.angle_deg * kDegree);
     const double up = ramp.rise / film.width * std::sin(ramp.angle_deg * kDegree);
     const auto grey = [&](double u, double v) {
@@ -45,7 +45,7 @@ Truth exact_ramp(const scene::Ramp& ramp, const scene::Film& film, const render:
             "closed form: the filter leaves a ramp as it is"};
 }
 
-Truth exact_constant(const scene::Constant& constant, const render::Window& window) {
+Truth exact_constant(const scene::Constant& constant, const film::Rect& window) {
     const double value = static_cast<double>(static_cast<float>(constant.value));
     return {pixels(window, [value](double, double) { return value; }), 0, "closed form: the constant, as a float"};
 }
@@ -82,7 +82,7 @@ bool has_exact_picture(const scene::Scene& scene) {
     return scene.image != scene::ImageKind::surface && scene.image != scene::ImageKind::wheel;
 }
 
-std::optional<Truth> exact_picture(const scene::Scene& scene, int m, const render::Window& window) {
+std::optional<Truth> exact_picture(const scene::Scene& scene, int m, const film::Rect& window) {
     switch (scene.image) {
         case scene::ImageKind::edge:
             return exact_edge(scene.edge, scene.film, m, window);

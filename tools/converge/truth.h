@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/render/film.h"
+#include "src/film/film.h"
 #include "src/scene/scene.h"
 
 namespace strata::tools {
@@ -23,15 +23,15 @@ bool has_exact_picture(const scene::Scene& scene);
 
 // The pixels of a window of an edge, zone plate, checker, constant or ramp under the B-spline of order m in [1,100].
 // Nothing for other images, and for patterns so fine that the answer would take minutes.
-std::optional<Truth> exact_picture(const scene::Scene& scene, int m, const render::Window& window);
+std::optional<Truth> exact_picture(const scene::Scene& scene, int m, const film::Rect& window);
 
 // P(Z <= d) where Z = X cos + Y sin, X and Y distributed as the centred n_m: the white share of a pixel whose centre is
 // d px inside an edge of that direction. By Gauss-Legendre quadrature on the pieces of the splines, where it is exact.
 double edge_coverage(int m, double angle_deg, double d);
 
 std::optional<Truth> exact_zoneplate(const scene::Zoneplate& zoneplate, const scene::Film& film, int m,
-                                     const render::Window& window);
+                                     const film::Rect& window);
 std::optional<Truth> exact_checker(const scene::Checker& checker, const scene::Film& film, int m,
-                                   const render::Window& window);
+                                   const film::Rect& window);
 
 }  // namespace strata::tools

@@ -115,7 +115,7 @@ double least_b(const Plane& plane, int m) {
 
 class CheckerColumn {
   public:
-    CheckerColumn(const Plane& plane, int m, const render::Window& window)
+    CheckerColumn(const Plane& plane, int m, const film::Rect& window)
         : plane_(plane), m_(m), window_(window), wave_(m), rule_(8 + m / 2) {}
 
     // Adds the pixels of the column about x px right of the frame's middle to sums, one a row.
@@ -147,7 +147,7 @@ class CheckerColumn {
 
     const Plane& plane_;
     int m_;
-    const render::Window& window_;
+    const film::Rect& window_;
     FilteredSquareWave wave_;
     GaussLegendre rule_;
 };
@@ -155,7 +155,7 @@ class CheckerColumn {
 }  // namespace
 
 std::optional<Truth> exact_checker(const scene::Checker& checker, const scene::Film& film, int m,
-                                   const render::Window& window) {
+                                   const film::Rect& window) {
     const Plane plane{checker.horizon * film.height, film.width * checker.height / checker.square,
                       checker.square / checker.height};
     const double high = window.y1 + 0.5 * m - plane.horizon;

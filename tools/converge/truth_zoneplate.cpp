@@ -56,7 +56,7 @@ Axis filtered_axis(int m, double a, int first, int last, double origin) {
 }  // namespace
 
 std::optional<Truth> exact_zoneplate(const scene::Zoneplate& zoneplate, const scene::Film& film, int m,
-                                     const render::Window& window) {
+                                     const film::Rect& window) {
     const double edge = 0.5 * std::min(film.width, film.height);
     const double rings = zoneplate.rings > 0 ? zoneplate.rings : edge / 4;
     const double a = 2 * std::numbers::pi * rings / (edge * edge);

@@ -13,7 +13,7 @@ namespace strata::tools {
 struct Explanation {
     std::string name;  // of the scene
     scene::Scene scene;
-    render::Window window;
+    film::Rect window;
     std::string tracer, simd_target;
     Plan plan;
     Prediction prediction;

@@ -43,7 +43,7 @@ Json recorded_json(const Explanation& explanation) {
 
 std::string explanation_json(const Explanation& explanation) {
     const scene::Scene& scene = explanation.scene;
-    const render::Window& w = explanation.window;
+    const film::Rect& w = explanation.window;
     Json features = Json::array(), octaves = Json::array(), relief = Json::array(), costs = Json::object();
     for (const Feature& feature : explanation.plan.features) features.push_back(feature_json(feature));
     for (const OctavePlan& octave : explanation.plan.octaves) octaves.push_back(octave_json(octave));

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "src/render/progress_printer.h"
 #include "src/scene/enum_names.h"
+#include "tools/cli/progress_printer.h"
 #include "tools/explain/explanation.h"
 
 namespace strata::tools {
@@ -29,10 +29,10 @@ std::string length(double x) {
 std::string headline(const Explanation& explanation) {
     const scene::Sampling& sampling = explanation.scene.sampling;
     const scene::Film& film = explanation.scene.film;
-    const render::Window& w = explanation.window;
+    const film::Rect& w = explanation.window;
     const int threads = explanation.prediction.threads;
     std::string text = fmt::format("{}  {}x{}", explanation.name, film.width, film.height);
-    if (w != render::Window{0, 0, film.width, film.height}) {
+    if (w != film::Rect{0, 0, film.width, film.height}) {
         text += fmt::format(", crop {},{},{},{}", w.x0, w.y0, w.x1, w.y1);
     }
     const bool single = sampling.estimator == scene::EstimatorKind::none;
@@ -88,8 +88,7 @@ std::string relief_text(const Plan& plan) {
 std::string value_text(const std::string& name, const std::optional<double>& value) {
     if (!value) return "-";
     if (name.ends_with("bytes")) return fmt::format("{:.0f} MB", *value / 1e6);
-    if (name.ends_with("seconds"))
-        return *value < 600 ? fmt::format("{:.3g} s", *value) : render::duration_text(*value);
+    if (name.ends_with("seconds")) return *value < 600 ? fmt::format("{:.3g} s", *value) : duration_text(*value);
     return scaled(*value);
 }
 

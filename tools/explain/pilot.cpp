@@ -35,12 +35,12 @@ int block_start(int from, int to, std::int64_t n, std::int64_t parts, int side, 
 }
 
 struct Blocks {
-    std::vector<render::Window> windows;  // row by row
+    std::vector<film::Rect> windows;  // row by row
     int columns = 1;
 };
 
 // The whole window.
-Blocks all_blocks(const render::Window& window, int side) {
+Blocks all_blocks(const film::Rect& window, int side) {
     Blocks blocks{{}, (window.width() + side - 1) / side};
     for (int y = window.y0; y < window.y1; y += side) {
         for (int x = window.x0; x < window.x1; x += side) {
@@ -51,7 +51,7 @@ Blocks all_blocks(const render::Window& window, int side) {
 }
 
 // About `wanted` pixels or cells in square blocks, one in each of nearly square parts of the window.
-Blocks choose_blocks(const render::Window& window, std::int64_t wanted, int samples_a_side) {
+Blocks choose_blocks(const film::Rect& window, std::int64_t wanted, int samples_a_side) {
     const double total = 1.0 * window.width() * window.height();
     const double pixels = std::clamp(static_cast<double>(wanted), 1.0, total);
     const double widest = std::clamp(kBlockSamples / samples_a_side, 1.0, 1.0 * kTile);
@@ -71,7 +71,7 @@ Blocks choose_blocks(const render::Window& window, std::int64_t wanted, int samp
     return blocks;
 }
 
-std::vector<glm::ivec2> pixels_of(const render::Window& window) {
+std::vector<glm::ivec2> pixels_of(const film::Rect& window) {
     std::vector<glm::ivec2> pixels;
     for (int y = window.y0; y < window.y1; ++y) {
         for (int x = window.x0; x < window.x1; ++x) pixels.emplace_back(x, y);
@@ -84,9 +84,9 @@ std::vector<glm::ivec2> pixels_of(const render::Window& window) {
 // The cells of the screen, with a handful of samples each, that the samples of a square of pixels touch, over the
 // number of samples. Samples of a pixel are spread over the filter's support: at the square's border they touch cells
 // that the next square touches again.
-double cells_a_sample(const render::Estimator& estimator, int columns, int rows) {
+double cells_a_sample(const estimate::Estimator& estimator, int columns, int rows) {
     if (estimator.shared()) return 1.0;
-    render::SampleSet set;
+    estimate::SampleSet set;
     estimator.pixel_samples(pixels_of({0, 0, columns, rows}), set);
     const double cells_a_pixel = std::exp2(std::floor(std::log2(std::max(1, estimator.settings().N) / 2.0)));
     std::set<std::pair<int, int>> cells;
@@ -97,23 +97,23 @@ double cells_a_sample(const render::Estimator& estimator, int columns, int rows)
     return static_cast<double>(cells.size()) / static_cast<double>(set.u.size());
 }
 
-PilotRun run_pilot(const integrate::ImageFunction& image, const render::EstimatorSettings& settings,
-                   const render::Window& owners, std::uint64_t rays) {
-    const render::Estimator estimator(settings);
+PilotRun run_pilot(const integrate::ImageFunction& image, const estimate::EstimatorSettings& settings,
+                   const film::Rect& owners, std::uint64_t rays) {
+    const estimate::Estimator estimator(settings);
     const auto samples = static_cast<std::size_t>(estimator.sample_count());
     const Blocks blocks = choose_blocks(owners, static_cast<std::int64_t>(rays / samples), settings.N);
     const std::size_t batch = std::max<std::size_t>(1, image.batch_samples() / samples);
     PilotRun pilot;
     pilot.columns = blocks.columns;
-    const render::Window& block = blocks.windows.front();
+    const film::Rect& block = blocks.windows.front();
     const int tile_columns = std::min(static_cast<int>(batch), kTile);
     const int tile_rows = std::clamp(static_cast<int>(batch) / kTile, 1, kTile);
     pilot.shared_correction =
         cells_a_sample(estimator, std::min(tile_columns, owners.width()), std::min(tile_rows, owners.height())) /
         cells_a_sample(estimator, block.width(), block.height());
-    render::SampleSet set;
+    estimate::SampleSet set;
     std::vector<glm::vec3> radiance;
-    for (const render::Window& window : blocks.windows) {
+    for (const film::Rect& window : blocks.windows) {
         const std::vector<glm::ivec2> chosen = pixels_of(window);
         integrate::Counters& counters = pilot.by_block.emplace_back();
         for (std::size_t first = 0; first < chosen.size(); first += batch) {
@@ -134,14 +134,14 @@ PilotRun run_pilot(const integrate::ImageFunction& image, const render::Estimato
     return pilot;
 }
 
-double estimator_seconds_a_ray(const render::EstimatorSettings& settings) {
+double estimator_seconds_a_ray(const estimate::EstimatorSettings& settings) {
     constexpr int kSamples = 1 << 15;
     const int side =
         std::max(1, static_cast<int>(std::sqrt(static_cast<double>(kSamples) / (settings.N * settings.N))));
     render::RenderOptions options;
     options.threads = 1;
     const render::RenderResult result =
-        render::render(Constant(), render::Estimator(settings), {0, 0, side, side}, options);
+        render::render(Constant(), estimate::Estimator(settings), {0, 0, side, side}, options);
     return result.cpu_seconds / static_cast<double>(result.counters.rays);
 }
 

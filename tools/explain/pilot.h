@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "src/estimate/estimator.h"
+#include "src/film/film.h"
 #include "src/integrate/image_function.h"
-#include "src/render/estimator.h"
-#include "src/render/film.h"
 
 namespace strata::tools {
 
@@ -22,10 +22,10 @@ struct PilotRun {
 // About `rays` samples (all, if there are no more; at least a pixel's) of those that pixels of the window take, or
 // cells, where samples are shared: small blocks of neighbours, one in each of equal parts of the window, which share
 // what a render's samples share.
-PilotRun run_pilot(const integrate::ImageFunction& image, const render::EstimatorSettings& settings,
-                   const render::Window& owners, std::uint64_t rays);
+PilotRun run_pilot(const integrate::ImageFunction& image, const estimate::EstimatorSettings& settings,
+                   const film::Rect& owners, std::uint64_t rays);
 
 // CPU time of placing a sample and of adding it up, in seconds: what a constant picture costs under the estimator.
-double estimator_seconds_a_ray(const render::EstimatorSettings& settings);
+double estimator_seconds_a_ray(const estimate::EstimatorSettings& settings);
 
 }  // namespace strata::tools

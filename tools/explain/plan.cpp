@@ -5,8 +5,8 @@
 
 #include <utility>
 
+#include "src/estimate/estimator.h"
 #include "src/filter/bspline_table.h"
-#include "src/render/estimator.h"
 #include "src/scene/camera_path.h"
 #include "src/scene/enum_names.h"
 #include "src/scene/needs.h"
@@ -123,7 +123,7 @@ std::vector<ReliefRow> relief_rows(const scene::Surface& surface) {
 }
 
 void add_estimator(FeatureList& list, const scene::Scene& scene) {
-    const render::Estimator estimator(render::estimator_settings(scene));
+    const estimate::Estimator estimator(estimate::estimator_settings(scene));
     const scene::Sampling& sampling = scene.sampling;
     const std::string name(scene::name_of(sampling.estimator));
     const bool is_table = sampling.m <= filter::kMaxTableOrder;

@@ -8,7 +8,7 @@
 #include "noise/relief/certificate.h"
 #include "src/integrate/surface_image.h"
 #include "src/scene/scene.h"
-#include "tools/aov.h"
+#include "tools/job/aov.h"
 
 namespace strata::tools {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/estimate/estimator.h"
 #include "src/image/encode.h"
 #include "src/integrate/make_image.h"
-#include "src/render/estimator.h"
-#include "src/render/processors.h"
+#include "src/parallel/processors.h"
 #include "src/render/progressive.h"
 #include "src/render/render.h"
 #include "src/scene/needs.h"
@@ -19,7 +19,7 @@ namespace strata::tools {
 
 namespace {
 
-render::Window owners_of(const render::Window& window, const render::Estimator& estimator) {
+film::Rect owners_of(const film::Rect& window, const estimate::Estimator& estimator) {
     if (!estimator.shared()) return window;
     const int reach = estimator.weights().reach();
     return {window.x0 - reach, window.y0 - reach, window.x1 + reach, window.y1 + reach};
@@ -28,7 +28,7 @@ render::Window owners_of(const render::Window& window, const render::Estimator& 
 constexpr double kFilmBytes = 13;  // a pixel
 
 // A run of shared samples, and the sums of the pixels that it is seen by.
-double shared_memory(const render::Window& window, const render::Estimator& estimator) {
+double shared_memory(const film::Rect& window, const estimate::Estimator& estimator) {
     constexpr double kRunBytes = 8.4e6, kSampleBytes = 20, kMostRows = 48, kSumBytes = 32;
     const double width = window.width();
     const double rows = std::min(kMostRows, kRunBytes / (kSampleBytes * estimator.sample_count() * width));
@@ -37,14 +37,14 @@ double shared_memory(const render::Window& window, const render::Estimator& esti
 }
 
 // Of one pass, only strips are held: in work, being encoded, and on their way through the encoder.
-double strip_memory(const render::Window& window) {
+double strip_memory(const film::Rect& window) {
     constexpr double kStripsInWork = 3, kEncoderBytes = 24;
     const double strip_pixels = 1.0 * window.width() * std::min(image::kStripRows, window.height());
     return (kStripsInWork * kFilmBytes + kEncoderBytes) * strip_pixels;
 }
 
 // What pixels cost: in the strips and the encoder, the small pictures' sums, and drawing them, one after the other.
-double aov_memory(const render::Window& window, const std::vector<Aov>& aovs) {
+double aov_memory(const film::Rect& window, const std::vector<Aov>& aovs) {
     if (aovs.empty()) return 0;
     constexpr double kCostBytes = 8, kChannelBytes = 8, kSumBytes = 17, kDrawnBytes = 42;
     const double strip_pixels = 1.0 * window.width() * std::min(image::kStripRows, window.height());
@@ -56,7 +56,7 @@ double aov_memory(const render::Window& window, const std::vector<Aov>& aovs) {
 }
 
 // Samples, rays and beams on their way in a thread. A tile may be less than a batch.
-double worker_memory(const render::Estimator& estimator, std::size_t batch_samples) {
+double worker_memory(const estimate::Estimator& estimator, std::size_t batch_samples) {
     constexpr double kRaysBytes = 1.5e6, kSampleBytes = 225;
     const double tile = std::pow(render::RenderOptions{}.tile, 2) * estimator.sample_count();
     const double batch = static_cast<double>(batch_samples);
@@ -65,7 +65,7 @@ double worker_memory(const render::Estimator& estimator, std::size_t batch_sampl
 
 // The program with its libraries, of which this process has as many; what is on its way in each thread; the strips; of
 // several passes what they are added up in.
-double expected_memory(const render::Window& window, const render::Estimator& estimator, std::size_t batch_samples,
+double expected_memory(const film::Rect& window, const estimate::Estimator& estimator, std::size_t batch_samples,
                        int threads, int passes) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -154,18 +154,18 @@ std::uint64_t pilot_rays(std::uint64_t rays, integrate::Tracer tracer) {
     return 2 * wanted >= rays ? std::min(rays, most) : wanted;
 }
 
-std::uint64_t count_rays(const scene::Scene& scene, const render::Window& window) {
-    const render::Estimator estimator(render::estimator_settings(scene));
-    const render::Window owners = owners_of(window, estimator);
+std::uint64_t count_rays(const scene::Scene& scene, const film::Rect& window) {
+    const estimate::Estimator estimator(estimate::estimator_settings(scene));
+    const film::Rect owners = owners_of(window, estimator);
     return std::uint64_t{1} * static_cast<std::uint64_t>(owners.width()) * static_cast<std::uint64_t>(owners.height()) *
            static_cast<std::uint64_t>(estimator.sample_count());
 }
 
-Prediction predict(const scene::Scene& scene, const render::Window& window, const PredictionSettings& settings) {
-    const render::EstimatorSettings sampling = render::estimator_settings(scene);
-    const render::Estimator estimator(sampling);
+Prediction predict(const scene::Scene& scene, const film::Rect& window, const PredictionSettings& settings) {
+    const estimate::EstimatorSettings sampling = estimate::estimator_settings(scene);
+    const estimate::Estimator estimator(sampling);
     Prediction prediction;
-    prediction.threads = settings.threads > 0 ? settings.threads : render::available_processors();
+    prediction.threads = settings.threads > 0 ? settings.threads : parallel::available_processors();
     Costs& costs = prediction.costs;
     costs.rays = count_rays(scene, window);
     leave_out(scene, costs);

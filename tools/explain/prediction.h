@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "src/film/film.h"
 #include "src/integrate/surface_image.h"
-#include "src/render/film.h"
 #include "src/scene/scene.h"
-#include "tools/aov.h"
 #include "tools/explain/count_estimate.h"
+#include "tools/job/aov.h"
 
 namespace strata::tools {
 
@@ -50,7 +50,7 @@ inline constexpr std::uint64_t kMostReferenceRays = 1u << 14;
 std::uint64_t pilot_rays(std::uint64_t rays, integrate::Tracer tracer);
 
 // Rays of one pass over the window of a valid scene's frame, exactly.
-std::uint64_t count_rays(const scene::Scene& scene, const render::Window& window);
+std::uint64_t count_rays(const scene::Scene& scene, const film::Rect& window);
 
 struct PredictionSettings {
     integrate::Tracer tracer = integrate::Tracer::fast;
@@ -61,6 +61,6 @@ struct PredictionSettings {
 };
 
 // Of rendering that window. Counts are the same in every run, times are not.
-Prediction predict(const scene::Scene& scene, const render::Window& window, const PredictionSettings& settings);
+Prediction predict(const scene::Scene& scene, const film::Rect& window, const PredictionSettings& settings);
 
 }  // namespace strata::tools

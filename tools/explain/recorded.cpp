@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/errors.h"
-#include "tools/text_file.h"
+#include "tools/cli/errors.h"
+#include "tools/cli/text_file.h"
 
 namespace strata::tools {
 

@@ -29,7 +29,7 @@ ordered_json scene_json(scene::Scene scene) {
 }
 
 ordered_json part_json(const Part& part) {
-    const render::Window& w = part.window;
+    const film::Rect& w = part.window;
     return {{"file", part.file}, {"window", {w.x0, w.y0, w.x1, w.y1}}, {"scene", scene_json(part.scene)}};
 }
 

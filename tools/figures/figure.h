@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "src/film/film.h"
 #include "src/image/picture.h"
-#include "src/render/film.h"
 #include "src/scene/scene.h"
 
 namespace strata::tools::figures {
@@ -24,7 +24,7 @@ int scaled(int pixels, Size size);
 struct Part {
     std::string file;  // "figure-6-none.exr"
     scene::Scene scene;
-    render::Window window;
+    film::Rect window;
     double cost = 1;  // of a ray, relative to others: for the progress
 
     double work() const;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/estimate/estimator.h"
 #include "src/image/output_file.h"
-#include "src/render/estimator.h"
 #include "src/scene/enum_names.h"
 #include "tools/figures/figure.h"
 #include "tools/plot/plot.h"
@@ -40,12 +40,12 @@ constexpr Pattern kPatterns[] = {
     {EstimatorKind::shared_sobol, "shared-sobol"},
 };
 
-std::vector<render::ProbeSample> samples_of(EstimatorKind kind) {
-    render::EstimatorSettings settings;
+std::vector<estimate::ProbeSample> samples_of(EstimatorKind kind) {
+    estimate::EstimatorSettings settings;
     settings.kind = kind;
     settings.N = kN;
     settings.m = kOrder;
-    return render::Estimator(settings).probe_samples(kPixel, kPixel);
+    return estimate::Estimator(settings).probe_samples(kPixel, kPixel);
 }
 
 PlotAxis axis(const char* label, bool downwards) {
@@ -70,8 +70,8 @@ PlotPanel panel_of(const Pattern& pattern) {
     PlotSeries dots;
     double heaviest = 0;
     const auto samples = samples_of(pattern.kind);
-    for (const render::ProbeSample& sample : samples) heaviest = std::max(heaviest, sample.weight);
-    for (const render::ProbeSample& sample : samples) {
+    for (const estimate::ProbeSample& sample : samples) heaviest = std::max(heaviest, sample.weight);
+    for (const estimate::ProbeSample& sample : samples) {
         dots.x.push_back(sample.u);
         dots.y.push_back(-sample.v);
         dots.point_size.push_back(std::max(kLeastSize, std::sqrt(sample.weight / heaviest)));
@@ -93,7 +93,7 @@ PlotPanel panel_of(const Pattern& pattern) {
 std::string samples_text() {
     std::string text = "estimator,u_px,v_px,weight\n";
     for (const Pattern& pattern : kPatterns) {
-        for (const render::ProbeSample& sample : samples_of(pattern.kind)) {
+        for (const estimate::ProbeSample& sample : samples_of(pattern.kind)) {
             text += fmt::format("{},{:.17g},{:.17g},{:.17g}\n", scene::name_of(pattern.kind), sample.u, sample.v,
                                 sample.weight);
         }
@@ -133,7 +133,7 @@ Plan plan(Size size) {
     for (const Pattern& pattern : kPatterns) result.parameters["estimators"].push_back(scene::name_of(pattern.kind));
     result.parameters.update({{"N", kN},
                               {"m", kOrder},
-                              {"seed", render::EstimatorSettings().seed},
+                              {"seed", estimate::EstimatorSettings().seed},
                               {"pixel", {kPixel, kPixel}},
                               {"width_px", scaled(1480, size)},
                               {"height_px", scaled(820, size)}});

@@ -28,7 +28,7 @@ Plan plan(Size size) {
         {"figure-5-plain.png", "The same planet without outlines."}};
     const scene::Scene scene = surface_scene(size);
     result.parts = {{"figure-5-surface.exr", scene, {0, 0, scene.film.width, scene.film.height}, 0.4}};
-    const auto corners = [](const render::Window& w) { return std::vector<int>{w.x0, w.y0, w.x1, w.y1}; };
+    const auto corners = [](const film::Rect& w) { return std::vector<int>{w.x0, w.y0, w.x1, w.y1}; };
     result.parameters = {{"area_of_figure_6", corners(detail_of_figure_6(size))},
                          {"area_of_figure_7", corners(detail_of_figure_7(size))}};
     return result;

@@ -8,11 +8,11 @@
 
 #include "src/image/write.h"
 #include "src/scene/validate.h"
+#include "tools/cli/planned_files.h"
+#include "tools/cli/standard_output.h"
 #include "tools/figures/record.h"
-#include "tools/picture_metadata.h"
-#include "tools/planned_files.h"
-#include "tools/render_picture.h"
-#include "tools/standard_output.h"
+#include "tools/job/picture_metadata.h"
+#include "tools/job/render_picture.h"
 
 namespace strata::tools::figures {
 
@@ -32,8 +32,8 @@ class TotalProgress {
   public:
     TotalProgress(double total_work, bool quiet) : total_work_(total_work), printer_(quiet) {}
 
-    render::ProgressCallback of_part(const Part& part) {
-        return [this, work = part.work(), show = printer_.callback()](const render::Progress& progress) {
+    parallel::ProgressCallback of_part(const Part& part) {
+        return [this, work = part.work(), show = printer_.callback()](const parallel::Progress& progress) {
             part_rays_ = progress.rays;
             show({.fraction = (done_work_ + work * progress.fraction) / total_work_,
                   .rays = done_rays_ + progress.rays,
@@ -50,7 +50,7 @@ class TotalProgress {
 
   private:
     double total_work_;
-    render::ProgressPrinter printer_;
+    ProgressPrinter printer_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     double done_work_ = 0;
     std::uint64_t done_rays_ = 0, part_rays_ = 0;
@@ -58,7 +58,7 @@ class TotalProgress {
 
 class Maker {
   public:
-    Maker(const MakeOptions& options, const render::CancelToken& cancel, double total_work)
+    Maker(const MakeOptions& options, const parallel::CancelToken& cancel, double total_work)
         : options_(options), cancel_(cancel), progress_(total_work, options.quiet) {}
 
     void make(const Figure& figure, const Plan& plan) {
@@ -100,7 +100,7 @@ class Maker {
     }
 
     const MakeOptions& options_;
-    const render::CancelToken& cancel_;
+    const parallel::CancelToken& cancel_;
     TotalProgress progress_;
 };
 
@@ -125,7 +125,7 @@ bool is_made(const MakeOptions& options, const Plan& plan) {
                    options.quiet);
 }
 
-bool make_figures(const std::vector<Figure>& figures, const MakeOptions& options, const render::CancelToken& cancel) {
+bool make_figures(const std::vector<Figure>& figures, const MakeOptions& options, const parallel::CancelToken& cancel) {
     std::vector<Plan> plans;
     std::vector<bool> kept;
     double work = 0;

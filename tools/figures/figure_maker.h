@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "src/render/cancel.h"
-#include "src/render/progress_printer.h"
+#include "src/parallel/cancel.h"
+#include "tools/cli/progress_printer.h"
 #include "tools/figures/figure.h"
 
 namespace strata::tools::figures {
@@ -34,6 +34,6 @@ bool is_made(const MakeOptions& options, const Plan& plan);
 // Plans every figure, renders, draws. Figures that are made already are kept unless they are plots or
 // options.overwrite. Prints a line a figure unless quiet. What keeps a figure from being made or written is told, and
 // the others are made: false then. Throws SceneError, before anything is rendered, and Interrupted.
-bool make_figures(const std::vector<Figure>& figures, const MakeOptions& options, const render::CancelToken& cancel);
+bool make_figures(const std::vector<Figure>& figures, const MakeOptions& options, const parallel::CancelToken& cancel);
 
 }  // namespace strata::tools::figures

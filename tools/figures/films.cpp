@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "tools/commands.h"
-#include "tools/errors.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/errors.h"
+#include "tools/cli/process.h"
 #include "tools/figures/record.h"
-#include "tools/process.h"
 
 namespace strata::tools::figures {
 

@@ -4,7 +4,7 @@
 
 #include "src/image/digest.h"
 #include "src/image/output_file.h"
-#include "tools/already_there.h"
+#include "tools/job/already_there.h"
 
 namespace strata::tools::figures {
 

@@ -16,7 +16,7 @@ constexpr int kDetail = 64;  // px a side, at size paper
 constexpr int kZoom = 5;     // at size paper
 
 // With this corner at size paper.
-render::Window detail_at(int x, int y, Size size) {
+film::Rect detail_at(int x, int y, Size size) {
     const int left = scaled(x, size), top = scaled(y, size), side = scaled(kDetail, size);
     return {left, top, left + side, top + side};
 }
@@ -35,10 +35,10 @@ scene::Scene surface_scene(Size size) {
     return scene;
 }
 
-render::Window detail_of_figure_6(Size size) { return detail_at(564, 70, size); }
-render::Window detail_of_figure_7(Size size) { return detail_at(792, 80, size); }
+film::Rect detail_of_figure_6(Size size) { return detail_at(564, 70, size); }
+film::Rect detail_of_figure_7(Size size) { return detail_at(792, 80, size); }
 
-void add_detail(Plan& plan, Size size, const render::Window& window, std::span<const DetailColumn> columns) {
+void add_detail(Plan& plan, Size size, const film::Rect& window, std::span<const DetailColumn> columns) {
     const auto single = [&](const DetailColumn& column) {
         return fmt::format("figure-{}-{}.png", plan.number, column.name);
     };

@@ -14,8 +14,8 @@ inline constexpr int kSurfaceSamples = 10;  // N of the whole surface and of the
 scene::Scene surface_scene(Size size);
 
 // The same part of the surface at every size.
-render::Window detail_of_figure_6(Size size);
-render::Window detail_of_figure_7(Size size);
+film::Rect detail_of_figure_6(Size size);
+film::Rect detail_of_figure_7(Size size);
 
 // How one column of a detail differs from another.
 struct DetailColumn {
@@ -27,7 +27,7 @@ struct DetailColumn {
 };
 
 // Parts, files and comparisons of figure 6 or 7 added to its plan: the first column against the others.
-void add_detail(Plan& plan, Size size, const render::Window& window, std::span<const DetailColumn> columns);
+void add_detail(Plan& plan, Size size, const film::Rect& window, std::span<const DetailColumn> columns);
 
 // The strip of magnified details and each of them alone.
 void draw_detail(const Plan& plan, Pictures pictures, const std::filesystem::path& folder,

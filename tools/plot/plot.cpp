@@ -11,10 +11,10 @@
 #include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
+#include "tools/cli/process.h"
+#include "tools/cli/temporary_folder.h"
+#include "tools/cli/text_file.h"
 #include "tools/plot/script.h"
-#include "tools/process.h"
-#include "tools/temporary_folder.h"
-#include "tools/text_file.h"
 
 namespace strata::tools {
 

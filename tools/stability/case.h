@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "src/render/cancel.h"
+#include "src/parallel/cancel.h"
 
 namespace strata::tools::stability {
 
@@ -31,7 +31,7 @@ struct Row {
 struct Settings {
     bool fast = false;
     std::uint64_t seed = 1;
-    const render::CancelToken* cancel = nullptr;
+    const parallel::CancelToken* cancel = nullptr;
 
     bool cancelled() const { return cancel != nullptr && cancel->requested(); }
     // A number of trials: all of them, or the fast subset's.

@@ -15,10 +15,10 @@ namespace strata::tools::stability {
 
 namespace {
 
-render::Film picture(const scene::Scene& scene) {
+film::Film picture(const scene::Scene& scene) {
     render::RenderOptions options;
     options.threads = 1;
-    return render::render(*integrate::make_image(scene), render::Estimator(render::estimator_settings(scene)),
+    return render::render(*integrate::make_image(scene), estimate::Estimator(estimate::estimator_settings(scene)),
                           {0, 0, scene.film.width, scene.film.height}, options)
         .film;
 }
@@ -34,15 +34,15 @@ std::vector<Row> instant(const Settings& settings, Random&) {
         const SceneSpec wheel{"wheel",
                               {"film.width=" + size, "film.height=" + size, "shutter.open_s=0", "sampling.N=2", set}};
         const scene::Scene scene = wheel.scene();
-        const render::Film film = picture(scene);
-        const render::Estimator estimator(render::estimator_settings(scene));
+        const film::Film film = picture(scene);
+        const estimate::Estimator estimator(estimate::estimator_settings(scene));
         const auto image = integrate::make_image(scene);
         const double t = frame / scene.shutter.fps;
         for (int y = 0; y < scene.film.height; ++y) {
             for (int x = 0; x < scene.film.width; ++x) {
                 double sum = 0.0;
                 const auto samples = estimator.probe_samples(x, y);
-                for (const render::ProbeSample& s : samples) {
+                for (const estimate::ProbeSample& s : samples) {
                     const double u = x + 0.5 + s.u, v = y + 0.5 + s.v;
                     glm::vec3 radiance;
                     integrate::Counters counters;
@@ -77,12 +77,12 @@ std::vector<Row> instant(const Settings& settings, Random&) {
 std::vector<Row> distribution(const Settings& settings, Random& random) {
     Worst mean_error, variance_error, beyond;
     for (int order = 1; order <= 8; ++order) {
-        render::EstimatorSettings chosen;
+        estimate::EstimatorSettings chosen;
         chosen.N = 64;
         chosen.time_order = order;
         chosen.seed = random();
         chosen.shutter = {7 / 25.0, 0.033};
-        const render::Estimator estimator(chosen);
+        const estimate::Estimator estimator(chosen);
         const double s = chosen.shutter.open_s, middle = 7 / 25.0 + 0.5 * s;
         const double table = (filter::kTableError + 1e-12) * s;
         for (int pixel = 0; pixel < settings.trials(40, 4); ++pixel) {
@@ -91,7 +91,7 @@ std::vector<Row> distribution(const Settings& settings, Random& random) {
             const auto where = [&] {
                 return fmt::format("order {}, pixel {},{}, seed {}", order, pixel, -pixel, chosen.seed);
             };
-            for (const render::ProbeSample& sample : samples) {
+            for (const estimate::ProbeSample& sample : samples) {
                 const double t = sample.time_s - middle;
                 sum += t;
                 squares += t * t;
@@ -132,12 +132,12 @@ std::vector<Row> late_frames(const Settings&, Random&) {
     Worst worst;
     double bound = 0.0;
     for (const double t : {1e6 / 25.0, 1e9 / 25.0, 1e9 / 1e-3}) {
-        render::EstimatorSettings early, late;
+        estimate::EstimatorSettings early, late;
         early.N = late.N = 16;
         early.shutter = {0.0, 0.033};
         late.shutter = {t, 0.033};
-        const auto near = render::Estimator(early).probe_samples(3, 4),
-                   far = render::Estimator(late).probe_samples(3, 4);
+        const auto near = estimate::Estimator(early).probe_samples(3, 4),
+                   far = estimate::Estimator(late).probe_samples(3, 4);
         for (std::size_t i = 0; i < near.size(); ++i) {
             worst.see(std::abs(far[i].time_s - t - near[i].time_s) / (3.0 * 0x1p-53 * t),
                       [&] { return fmt::format("frame at {:.6g} s, sample {}", t, i); });
@@ -200,7 +200,7 @@ std::vector<Row> whole_turn(int frame, const Settings& settings, Random& random)
                           "sampling.m=1",
                           fmt::format("sampling.seed={}", random() >> 2)}};
     const scene::Scene scene = spec.scene();
-    const render::Film film = picture(scene);
+    const film::Film film = picture(scene);
     const double n = scene.sampling.N * scene.sampling.N;
     const double pixel = 2.0 * std::tan(0.5 * scene.camera.fov_deg / 180.0 * std::numbers::pi) / width;
     Worst worst;
@@ -235,7 +235,7 @@ std::vector<Row> even_disc(const Settings& settings, Random& random) {
          "shutter.fps=25", "shutter.open_s=0.04", "sampling.m=1", fmt::format("sampling.N={}", settings.fast ? 4 : 16),
          fmt::format("sampling.seed={}", random() >> 2)}};
     const scene::Scene scene = spec.scene();
-    const render::Film film = picture(scene);
+    const film::Film film = picture(scene);
     const double n = scene.sampling.N * scene.sampling.N, variance = 0.4 * 0.6 / (n - 1.0);
     Worst worst;
     double sum = 0.0, count = 0.0;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/render/estimator.h"
+#include "src/estimate/estimator.h"
 #include "tools/stability/oracles/ray_oracle.h"
 #include "tools/stability/oracles/shape_of.h"
 
@@ -24,7 +24,7 @@ oracle::Vec as_vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 RayJury::RayJury(const SceneSpec& spec, const Settings& settings, std::uint32_t step_limit)
     : spec_(spec), scene_(spec.scene()), settings_(settings), image_(scene_, integrate::Tracer::fast, step_limit) {}
 
-double RayJury::time() const { return render::estimator_settings(scene_).shutter.middle_s(); }
+double RayJury::time() const { return estimate::estimator_settings(scene_).shutter.middle_s(); }
 
 trace::Ray RayJury::local(const WorldRay& ray) const {
     const double t = time();

@@ -6,7 +6,7 @@
 
 #include "noise/hash.h"
 #include "noise/simd_target.h"
-#include "src/render/task_seam.h"
+#include "src/parallel/thread_pool.h"
 
 namespace strata::tools::stability {
 
@@ -74,14 +74,14 @@ std::vector<Row> run_cases(const std::vector<Case>& cases, const Settings& setti
     std::vector<std::vector<Row>> found(cases.size());
     std::mutex mutex;
     std::size_t done = 0;
-    render::TaskSeam seam(threads);
+    parallel::ThreadPool pool(threads);
     for (const std::string& target : targets) {
         noise::pin_simd_target(target.empty() ? noise::simd_targets().front() : target);
         std::vector<std::size_t> chosen;
         for (std::size_t i = 0; i < cases.size(); ++i) {
             if (cases[i].simd_target == target) chosen.push_back(i);
         }
-        seam.run(static_cast<std::int64_t>(chosen.size()), [&](int, std::int64_t index) {
+        pool.run(static_cast<std::int64_t>(chosen.size()), [&](int, std::int64_t index) {
             const std::size_t i = chosen[static_cast<std::size_t>(index)];
             if (settings.cancelled()) return;
             {

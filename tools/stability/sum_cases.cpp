@@ -46,10 +46,10 @@ class Speckle final : public integrate::ImageFunction {
 // in double adds 2^-53 at most; the weights of both sides, whose sum divides, twice that.
 std::vector<Row> mixed(EstimatorKind kind, const std::string& name, const Settings& settings, Random&) {
     const int pixels = settings.trials(6, 2);
-    render::EstimatorSettings estimator_settings;
+    estimate::EstimatorSettings estimator_settings;
     estimator_settings.kind = kind;
     estimator_settings.N = 64;
-    const render::Estimator estimator(estimator_settings);
+    const estimate::Estimator estimator(estimator_settings);
     Worst in_film, in_float;
     double bound = 0.0;
     for (const double share : {0.5, 1.0 / 4096, 1e-6}) {
@@ -59,8 +59,8 @@ std::vector<Row> mixed(EstimatorKind kind, const std::string& name, const Settin
             for (int x = 0; x < pixels; ++x) {
                 long double sum = 0.0L;
                 float naive = 0.0f;
-                const std::vector<render::ProbeSample> samples = estimator.probe_samples(x, y);
-                for (const render::ProbeSample& s : samples) {
+                const std::vector<estimate::ProbeSample> samples = estimator.probe_samples(x, y);
+                for (const estimate::ProbeSample& s : samples) {
                     const float radiance = image.at(x + 0.5 + s.u, y + 0.5 + s.v);
                     sum += static_cast<long double>(s.weight) * static_cast<long double>(radiance);
                     naive += static_cast<float>(s.weight) * radiance;
@@ -112,11 +112,11 @@ std::vector<Row> constant(const Settings& settings, Random&) {
         for (const int m : {1, 4, 33, 100}) {
             for (const int N : {1, 2, 64}) {
                 if (settings.cancelled() || (N == 64 && (settings.fast || (m > 4 && kind >= 7)))) continue;
-                render::EstimatorSettings chosen;
+                estimate::EstimatorSettings chosen;
                 chosen.kind = static_cast<EstimatorKind>(kind);
                 chosen.N = N;
                 chosen.m = m;
-                const render::Estimator estimator(chosen);
+                const estimate::Estimator estimator(chosen);
                 for (const float radiance : {kBright, kDim, 1.0f / 3.0f}) {
                     const render::RenderResult result =
                         render::render(Constant(radiance), estimator, {0, 0, 3, 2}, one_thread());

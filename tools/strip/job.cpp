@@ -17,12 +17,12 @@
 #include "src/scene/key_text.h"
 #include "src/scene/printer.h"
 #include "src/scene/typed_number.h"
-#include "tools/column_settings.h"
-#include "tools/errors.h"
-#include "tools/foreign_picture.h"
-#include "tools/picture_labels.h"
-#include "tools/standard_output.h"
-#include "tools/stream_input.h"
+#include "tools/cli/errors.h"
+#include "tools/cli/standard_output.h"
+#include "tools/cli/stream_input.h"
+#include "tools/job/column_settings.h"
+#include "tools/job/foreign_picture.h"
+#include "tools/job/picture_labels.h"
 
 namespace strata::tools {
 
@@ -121,7 +121,7 @@ void find_reference(const StripRequest& request, const std::optional<LoadedScene
 
 struct Extent {
     int frame_width, frame_height;
-    render::Window window;
+    film::Rect window;
 };
 
 Extent extent_of(const StripSource& source) {
@@ -133,7 +133,7 @@ Extent extent_of(const StripSource& source) {
     return {film.width, film.height, {0, 0, film.width, film.height}};
 }
 
-image::Picture cut(const image::Picture& whole, const render::Window& w) {
+image::Picture cut(const image::Picture& whole, const film::Rect& w) {
     image::Picture part{whole.frame_width, whole.frame_height, w.x0, w.y0, w.x1, w.y1, {}};
     const std::size_t count = 3 * static_cast<std::size_t>(w.width());
     for (int y = w.y0; y < w.y1; ++y) {
@@ -177,10 +177,10 @@ void apply_crop(const StripRequest& request, StripJob& job) {
         frame.height = first.frame_height;
         job.window = parse_crop("--crop", request.crop, frame);
     }
-    const render::Window& w = job.window;
+    const film::Rect& w = job.window;
     for (StripSource* source : sources) {
         if (source->file.empty() || !has_crop) continue;
-        const render::Window has = extent_of(*source).window;
+        const film::Rect has = extent_of(*source).window;
         if (w.x0 < has.x0 || w.y0 < has.y0 || w.x1 > has.x1 || w.y1 > has.y1)
             throw UsageError(fmt::format("--crop {}: {} holds pixels {},{},{},{} alone", request.crop, source->name,
                                          has.x0, has.y0, has.x1, has.y1));
@@ -188,7 +188,7 @@ void apply_crop(const StripRequest& request, StripJob& job) {
     }
 }
 
-int choose_zoom(const StripRequest& request, const render::Window& window) {
+int choose_zoom(const StripRequest& request, const film::Rect& window) {
     if (request.zoom.empty()) return std::clamp(kPanelWidth / window.width(), 1, 16);
     return parse_integer("--zoom", request.zoom, 1, kMostZoom);
 }
@@ -202,8 +202,8 @@ std::optional<double> parse_top(const std::string& text) {
 }
 
 std::string default_caption(const StripJob& job) {
-    const render::Window& w = job.window;
-    std::string text = w == render::Window{0, 0, job.frame_width, job.frame_height}
+    const film::Rect& w = job.window;
+    std::string text = w == film::Rect{0, 0, job.frame_width, job.frame_height}
                            ? fmt::format("{}×{} pixels", w.width(), w.height())
                            : fmt::format("Pixels {} to {} across and {} to {} down of {}×{}", w.x0, w.x1, w.y0, w.y1,
                                          job.frame_width, job.frame_height);
@@ -214,7 +214,7 @@ std::string default_caption(const StripJob& job) {
 // An overscan EXR of another program, whose pixels lie outside its frame, can be shown but not be a part.
 void check_part(const StripJob& job, const StripSource& source, const fs::path& path) {
     image::check_writable(path);
-    const render::Window& w = job.window;
+    const film::Rect& w = job.window;
     const image::PictureShape rendered{job.frame_width, job.frame_height, w.x0, w.y0, w.x1, w.y1};
     try {
         image::check_encodable(path, source.file.empty() ? rendered : source.picture.shape(), {}, {});

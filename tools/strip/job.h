@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "src/film/film.h"
 #include "src/image/colour_out.h"
 #include "src/image/picture.h"
-#include "src/render/film.h"
 #include "src/scene/scene.h"
-#include "tools/scene_argument.h"
+#include "tools/cli/scene_argument.h"
 
 namespace strata::tools {
 
@@ -37,7 +37,7 @@ struct StripJob {
     std::vector<StripSource> columns;
     std::optional<StripSource> reference;         // where it is no column
     std::optional<std::size_t> reference_column;  // where it is one
-    render::Window window;                        // of the frame
+    film::Rect window;                            // of the frame
     int frame_width = 0, frame_height = 0;
     int zoom = 1;
     image::ColourOut colour;

@@ -89,7 +89,7 @@ image::Canvas draw_strip(const StripJob& job) {
 }
 
 image::Metadata strip_metadata(const StripJob& job) {
-    const render::Window& w = job.window;
+    const film::Rect& w = job.window;
     image::Metadata metadata;
     metadata.set("strata:version", STRATA_VERSION);
     for (std::size_t i = 0; i < job.columns.size(); ++i)

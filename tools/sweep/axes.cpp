@@ -11,8 +11,8 @@
 
 #include "src/scene/key_text.h"
 #include "src/scene/typed_number.h"
-#include "tools/column_settings.h"
-#include "tools/errors.h"
+#include "tools/cli/errors.h"
+#include "tools/job/column_settings.h"
 
 namespace strata::tools {
 

@@ -14,9 +14,9 @@
 #include "src/scene/override.h"
 #include "src/scene/printer.h"
 #include "src/scene/validate.h"
-#include "tools/errors.h"
-#include "tools/foreign_picture.h"
-#include "tools/picture_metadata.h"
+#include "tools/cli/errors.h"
+#include "tools/job/foreign_picture.h"
+#include "tools/job/picture_metadata.h"
 
 namespace strata::tools {
 
@@ -34,14 +34,14 @@ void apply(scene::Scene& scene, const SweepAxis& axis, std::size_t value) {
                           fmt::format("{} {}", axis.origin, scene::excerpt(axis.values[value])));
 }
 
-SweepPicture make_picture(std::string file, const scene::Scene& scene, const render::Window& window) {
+SweepPicture make_picture(std::string file, const scene::Scene& scene, const film::Rect& window) {
     return {.file = std::move(file),
             .scene = scene,
             .window = window,
             .metadata = picture_metadata(scene, window, "fast", "float")};
 }
 
-render::Window window_of(const SweepRequest& request, const scene::Film& film) {
+film::Rect window_of(const SweepRequest& request, const scene::Film& film) {
     if (request.crop.empty()) return {0, 0, film.width, film.height};
     return parse_crop("--crop", request.crop, film);
 }
@@ -138,7 +138,7 @@ void make_references(const SweepRequest& request, SweepJob& job) {
         scene::Scene target = target_of(cell);
         target.sampling.N = N;
         target.sampling.seed = seed_a;
-        const render::Window& w = cell.picture.window;
+        const film::Rect& w = cell.picture.window;
         const auto key = std::pair(scene::print_scene(target, scene::PrintedKeys::all),
                                    fmt::format("{},{},{},{}", w.x0, w.y0, w.x1, w.y1));
         const auto [place, is_new] = known.emplace(key, job.references.size());
@@ -160,7 +160,7 @@ void read_reference(const SweepRequest& request, SweepJob& job) {
     job.given_reference_name = fs::path(request.reference).filename().string();
     const image::Picture& reference = *job.given_reference;
     for (const SweepCell& cell : job.cells) {
-        const render::Window& w = cell.picture.window;
+        const film::Rect& w = cell.picture.window;
         if (w.width() != reference.width() || w.height() != reference.height())
             throw UsageError(fmt::format(
                 "--reference {}: it has {}x{} pixels, {} is to have {}x{}; allowed: equal "

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "src/film/film.h"
 #include "src/image/metadata.h"
 #include "src/image/picture.h"
-#include "src/render/film.h"
 #include "src/scene/scene.h"
-#include "tools/scene_argument.h"
+#include "tools/cli/scene_argument.h"
 #include "tools/sweep/axes.h"
 
 namespace strata::tools {
@@ -28,7 +28,7 @@ struct SweepRequest {
 struct SweepPicture {
     std::string file;  // name in the sweep's folder
     scene::Scene scene;
-    render::Window window;
+    film::Rect window;
     image::Metadata metadata;  // what makes a file this picture
 };
 

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "src/image/write.h"
-#include "src/render/progress_printer.h"
-#include "tools/already_there.h"
-#include "tools/batch_progress.h"
-#include "tools/picture_metadata.h"
-#include "tools/render_picture.h"
-#include "tools/standard_output.h"
+#include "tools/cli/progress_printer.h"
+#include "tools/cli/standard_output.h"
+#include "tools/job/already_there.h"
+#include "tools/job/batch_progress.h"
+#include "tools/job/picture_metadata.h"
+#include "tools/job/render_picture.h"
 #include "tools/sweep/tables.h"
 
 namespace strata::tools {
@@ -31,7 +31,7 @@ double rays_of(const SweepPicture& picture) { return expected_rays(picture.scene
 
 bool is_there(const SweepJob& job, const SweepPicture& picture) {
     const scene::Film& frame = picture.scene.film;
-    const render::Window& w = picture.window;
+    const film::Rect& w = picture.window;
     const std::filesystem::path path = job.folder / picture.file;
     const Found found = find_picture(path, picture.metadata, {frame.width, frame.height, w.x0, w.y0, w.x1, w.y1});
     if (found.presence == Presence::damaged && !job.quiet) tell_damaged(path, found);
@@ -41,7 +41,7 @@ bool is_there(const SweepJob& job, const SweepPicture& picture) {
 }  // namespace
 
 SweepOutcome render_sweep(PlannedFiles& files, const SweepJob& job, SweepLedger& ledger,
-                          const render::CancelToken& cancel) {
+                          const parallel::CancelToken& cancel) {
     SweepOutcome outcome;
     std::vector<const SweepPicture*> missing;
     double total = 0;
@@ -59,7 +59,7 @@ SweepOutcome render_sweep(PlannedFiles& files, const SweepJob& job, SweepLedger&
     }
 
     int failed_in_a_row = 0;
-    render::ProgressPrinter printer(job.quiet);
+    ProgressPrinter printer(job.quiet);
     BatchProgress progress(total, printer.callback());
     for (const SweepPicture* picture : missing) {
         const RenderedPicture rendered = render_picture(

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <filesystem>
 
-#include "src/render/cancel.h"
-#include "tools/planned_files.h"
+#include "src/parallel/cancel.h"
+#include "tools/cli/planned_files.h"
 #include "tools/sweep/job.h"
 #include "tools/sweep/ledger.h"
 
@@ -21,6 +21,6 @@ struct SweepOutcome {
 // Each picture is written when it is finished, and its cost with it. Prints what is kept and what is to be done. A
 // picture that cannot be written is told and does not keep the others from being rendered; two in a row end the sweep.
 SweepOutcome render_sweep(PlannedFiles& files, const SweepJob& job, SweepLedger& ledger,
-                          const render::CancelToken& cancel);
+                          const parallel::CancelToken& cancel);
 
 }  // namespace strata::tools

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "src/image/compare.h"
-#include "tools/planned_files.h"
+#include "tools/cli/planned_files.h"
 #include "tools/sweep/job.h"
 
 namespace strata::tools {

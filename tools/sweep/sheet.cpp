@@ -93,7 +93,7 @@ std::string reference_text(const SweepJob& job, const SweepResults& results) {
 }
 
 std::string scaling_text(const SweepJob& job, const Scaling& scaling) {
-    const render::Window& w = job.cells.front().picture.window;
+    const film::Rect& w = job.cells.front().picture.window;
     std::string text = fmt::format("{}×{} pixels", w.width(), w.height());
     if (scaling.zoom > 1) text += fmt::format(", each shown as {0}×{0}", scaling.zoom);
     if (scaling.shrink > 1) text += fmt::format(", {0}×{0} of them shown as one", scaling.shrink);

@@ -74,7 +74,7 @@ Json sweep_json(const SweepJob& job, const SweepLedger& ledger, const SweepResul
     Json cells = Json::array();
     for (std::size_t i = 0; i < job.cells.size(); ++i) {
         const SweepPicture& picture = job.cells[i].picture;
-        const render::Window& w = picture.window;
+        const film::Rect& w = picture.window;
         Json settings = Json::object();
         for (const auto& [key, value] : job.cells[i].settings) settings[key] = value;
         cells.push_back({{"file", picture.file},

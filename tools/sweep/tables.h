@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-#include "tools/planned_files.h"
+#include "tools/cli/planned_files.h"
 #include "tools/sweep/job.h"
 #include "tools/sweep/ledger.h"
 #include "tools/sweep/results.h"

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "src/render/estimator.h"
-#include "src/render/film.h"
+#include "src/estimate/estimator.h"
+#include "src/film/film.h"
 #include "src/scene/toml_reader.h"
 #include "tools/bench/peers/height_mesh.h"
 
@@ -67,9 +67,9 @@ struct Tally {
 class Bench {
   public:
     Bench(const scene::Scene& scene, RTCScene mesh, const integrate::SurfaceImage& image)
-        : scene_(scene), mesh_(mesh), image_(image), estimator_(render::estimator_settings(scene)) {}
+        : scene_(scene), mesh_(mesh), image_(image), estimator_(estimate::estimator_settings(scene)) {}
 
-    Tally measure(const render::Window& window) {
+    Tally measure(const film::Rect& window) {
         Tally tally;
         make_rays(window);
         const double start = cpu_seconds();
@@ -89,7 +89,7 @@ class Bench {
 
   private:
     // The estimator's own samples, pixel by pixel.
-    void make_rays(const render::Window& window) {
+    void make_rays(const film::Rect& window) {
         std::vector<glm::ivec2> pixels;
         for (int y = window.y0; y < window.y1; ++y) {
             for (int x = window.x0; x < window.x1; ++x) pixels.emplace_back(x, y);
@@ -195,15 +195,15 @@ class Bench {
     const scene::Scene& scene_;
     RTCScene mesh_;
     const integrate::SurfaceImage& image_;
-    render::Estimator estimator_;
-    render::SampleSet samples_;
+    estimate::Estimator estimator_;
+    estimate::SampleSet samples_;
     std::vector<trace::Ray> rays_;
     Directions direction_;
     std::vector<float> distance_, distance_of_sixteen_;  // infinite: no hit
 };
 
-render::Window parse_window(const std::string& text) {
-    render::Window w;
+film::Rect parse_window(const std::string& text) {
+    film::Rect w;
     if (std::sscanf(text.c_str(), "%d,%d,%d,%d", &w.x0, &w.y0, &w.x1, &w.y1) != 4) {
         throw std::runtime_error(text + ": a window is x0,y0,x1,y1");
     }

@@ -1,0 +1,77 @@
+// A film of which only the strips in work are held: finished ones go, in order, to where they are wanted.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <vector>
+
+#include "src/film/film.h"
+
+namespace strata::film {
+
+// Is given a picture's strips one after the other from the top, by one thread at a time, a film of the strip's window
+// each. Pixels that a cancelled render left out are not finished, and black.
+using StripSink = std::function<void(const Film& strip)>;
+
+// A window cut into strips of `rows` rows, the last of which may have fewer.
+struct StripLayout {
+    Rect window;
+    int rows = 1;
+
+    int count() const { return (window.height() + rows - 1) / rows; }
+    int strip_at(int y) const { return (y - window.y0) / rows; }
+    Rect strip(int number) const;
+};
+
+// Each strip is worked on in a number of parts, by any threads. Parts are begun in the order of the strips, but for
+// those that are set aside, and every part is ended, finished or not.
+class RowStream {
+  public:
+    // parts: of each strip. At most `most_open` strips are held at once, beside what is set aside.
+    RowStream(const StripLayout& layout, std::vector<int> parts, int most_open, const FilmExtras& extras,
+              StripSink sink);
+
+    const StripLayout& layout() const { return layout_; }
+
+    // The film of a strip, which has parts to be ended; waits until strips before it are gone.
+    Film& open(int number);
+
+    // Sets a film aside, to be put into the strip when it is whole.
+    void set_aside(int number, Film film);
+
+    // Ends a part and gives away all strips that are whole and next; returns the CPU time that this took.
+    double end_part(int number);
+
+    // When all parts are ended: throws what the sink threw, after which it was not called any more.
+    void check() const;
+    std::int64_t finished_pixels() const { return finished_pixels_; }
+    std::size_t most_bytes() const { return most_bytes_; }  // of films held at once
+
+  private:
+    void give_away(int number);
+    void hold(const Film& film);
+    void release(const Film& film);
+
+    StripLayout layout_;
+    int most_open_;
+    FilmExtras extras_;
+    StripSink sink_;
+
+    mutable std::mutex mutex_;  // guards all below; not held while a sink is at work
+    std::condition_variable gone_;
+    std::map<int, Film> open_;
+    std::multimap<int, Film> aside_;
+    std::vector<int> parts_left_;
+    int next_ = 0;  // to be given away
+    bool is_giving_ = false;
+    std::exception_ptr failure_;
+    std::int64_t finished_pixels_ = 0;
+    std::size_t bytes_ = 0, most_bytes_ = 0;
+};
+
+}  // namespace strata::film

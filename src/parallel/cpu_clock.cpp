@@ -1,0 +1,13 @@
+#include "src/parallel/cpu_clock.h"
+
+#include <ctime>
+
+namespace strata::parallel {
+
+double thread_cpu_seconds() {
+    timespec time = {};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+}  // namespace strata::parallel

@@ -1,0 +1,131 @@
+// strata explain: what a render does, what it leaves out, and what it will cost.
+#include <memory>
+
+#include "noise/simd_target.h"
+#include "src/image/file_paths.h"
+#include "src/parallel/cancel.h"
+#include "src/render/progressive.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/errors.h"
+#include "tools/cli/planned_files.h"
+#include "tools/cli/scene_argument.h"
+#include "tools/cli/standard_output.h"
+#include "tools/explain/explanation.h"
+#include "tools/job/aov.h"
+#include "tools/job/settings_mark.h"
+
+namespace strata::tools {
+
+namespace {
+
+struct ExplainRequest {
+    SceneArgument scene;
+    std::string crop, tracer, simd, json, statistics, passes, aov, threads = "0";
+    bool no_pilot = false, quiet = false;
+};
+
+constexpr int kMostThreads = 1024;
+
+void plan_json(const ExplainRequest& request, const LoadedScene& loaded, PlannedFiles& files) {
+    if (request.json.empty()) return;
+    for (const std::string& input : {loaded.source, request.statistics}) {
+        if (!input.empty() && image::is_one_file(input, request.json)) {
+            throw UsageError("--json " + request.json + ": this is what is to be read; allowed: a file of its own");
+        }
+    }
+    files.plan(request.json);
+    keep_output_for(request.json);
+}
+
+int explain_command(const ExplainRequest& request) {
+    parallel::end_on_signals();
+    const int threads = parse_integer("--threads", request.threads, 0, kMostThreads);
+    LoadedScene loaded = request.scene.load();
+    if (!request.simd.empty()) {
+        use_simd_target(request.simd);
+    } else if (loaded.simd_target) {
+        noise::pin_simd_target(*loaded.simd_target);
+    }
+    Explanation explanation;
+    explanation.window = window_of(request.crop, loaded);
+    explanation.tracer = !request.tracer.empty() ? request.tracer : loaded.tracer.value_or("fast");
+    const integrate::Tracer tracer = parse_tracer(explanation.tracer);
+    explanation.simd_target = noise::simd_target();
+    explanation.name = loaded.name;
+    explanation.scene = loaded.scene;
+    const std::string passes_text = !request.passes.empty() ? request.passes : loaded.passes.value_or("1");
+    int passes = parse_integer("--passes", passes_text, 1, render::kMostPasses);
+    PlannedFiles files;
+    plan_json(request, loaded, files);
+    if (!request.statistics.empty()) {
+        const std::string mark = settings_mark(loaded.scene, explanation.window, explanation.tracer);
+        explanation.recorded = read_recorded(request.statistics, mark, count_rays(loaded.scene, explanation.window));
+        if (request.passes.empty()) passes = static_cast<int>(explanation.recorded->passes);
+    }
+    const std::vector<Aov> aovs = aovs_of(request.aov, loaded, passes);
+    explanation.plan = make_plan(loaded.scene, tracer, passes, aovs);
+    explanation.prediction = predict(
+        loaded.scene, explanation.window,
+        {.tracer = tracer, .threads = threads, .passes = passes, .aovs = aovs, .with_pilot = !request.no_pilot});
+    if (!request.json.empty()) files.write(request.json, explanation_json(explanation));
+    if (!request.quiet) print_out(explanation_text(explanation));
+    return files.all_written() ? 0 : kExitRuntime;
+}
+
+}  // namespace
+
+void add_explain_command(Command& program, int& exit_code) {
+    Command* command =
+        program.add_subcommand("explain", "Tell what a render does, what it leaves out, and what it will cost");
+    auto request = std::make_shared<ExplainRequest>();
+    request->scene.add_to(*command);
+    command->add_option("--crop", request->crop, "As for render: pixels [x0,x1) x [y0,y1) of the frame alone")
+        ->type_name("x0,y0,x1,y1");
+    command
+        ->add_option("--threads", request->threads,
+                     "As for render: threads, up to 1024; 0: as many as machine and container give")
+        ->type_name("n")
+        ->capture_default_str();
+    command->add_option("--tracer", request->tracer, "As for render: fast or reference; default fast")
+        ->type_name("NAME");
+    command
+        ->add_option("--simd", request->simd,
+                     "As for render: avx512, avx2, sse4 or scalar; default the best that is here")
+        ->type_name("TARGET");
+    command->add_option("--passes", request->passes, "As for render: average so many passes; default 1")
+        ->type_name("K");
+    command->add_option("--aov", request->aov, "As for render: also keep what pixels cost")->type_name("steps,evals");
+    command->add_flag("--no-pilot", request->no_pilot, "Cast no rays: tell only what is known without");
+    command
+        ->add_option(
+            "--stats", request->statistics,
+            "What `strata render --stats` wrote of the same render: the actual costs beside the predicted ones")
+        ->type_name("FILE.json");
+    command->add_option("--json", request->json, "Write the same as JSON; - for standard output")
+        ->type_name("FILE.json");
+    command->add_flag("--quiet", request->quiet, "No text");
+    command->footer(
+        "A pilot casts 1 % of the rays - at least 65536, or all of up to 131072; at most 262144, or 16384 of the "
+        "reference tracer's - "
+        "in\n"
+        "small blocks all over the frame, on one thread. What the blocks differ by tells the interval that holds a\n"
+        "count 99 times in 100. Counts are the same in every run; times are not;\n"
+        "`seconds` supposes a core for every thread.\n"
+        "Distances and wavelengths are in world units; a pixel is that at the frame's centre, mid-shutter. `below\n"
+        "tolerance from`: farther away the octave raises or lowers the surface by less than a hit's tolerance.\n"
+        "JSON: scene, version, width, height, crop [x0,y0,x1,y1], estimator, N, m, tracer, simd_target, threads;\n"
+        "features [{name, needed, why}];\n"
+        "octaves [{octave, amplitude, wavelength, pixel_wide_at, below_tolerance_from, roles [{from, to, role}]}] "
+        "with\n"
+        "role geometry (hits and normals), normal or nothing; below_tolerance_from is null for isosurfaces;\n"
+        "relief [{name, type, of, octaves, low, high, slope, bend}], its terms with bounds in surface units;\n"
+        "pilot {rays, share, cpu_seconds} or null; recorded {passes, threads, simd_target} or null, of --stats;\n"
+        "costs {rays, shadow_rays, hits, noise_evaluations, executed_lanes, steps, cpu_seconds, seconds,\n"
+        "peak_memory_bytes}, each {predicted, low, high, actual, ratio}, null where not known.\n"
+        "low and high: of counts. Of several "
+        "passes costs are those of one.\n"
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, scene or --stats.");
+    command->callback([request, &exit_code] { exit_code = explain_command(*request); });
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,174 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <system_error>
+
+#include "src/image/output_file.h"
+#include "src/image/text.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/errors.h"
+#include "tools/cli/planned_files.h"
+#include "tools/cli/process.h"
+#include "tools/cli/scene_argument.h"
+#include "tools/cli/standard_output.h"
+#include "tools/figures/figure_maker.h"
+#include "tools/figures/films.h"
+#include "tools/figures/page.h"
+#include "tools/plot/plot.h"
+
+namespace strata::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+using figures::Figure;
+
+constexpr int kMostThreads = 1024;
+constexpr const char* kPage = "index.html";
+
+struct FiguresRequest {
+    std::string only, size = "paper", folder = "figures", threads = "0";
+    bool quiet = false, overwrite = false, html = false, no_films = false;
+};
+
+std::vector<std::string> split(const std::string& text) {
+    std::vector<std::string> words;
+    for (std::size_t begin = 0;;) {
+        const std::size_t end = text.find(',', begin);
+        words.push_back(text.substr(begin, end - begin));
+        if (end == std::string::npos) return words;
+        begin = end + 1;
+    }
+}
+
+std::vector<Figure> chosen_figures(const std::string& only) {
+    const auto all = figures::all_figures();
+    if (only.empty()) return {all.begin(), all.end()};
+    std::set<int> numbers;
+    for (const std::string& word : split(only)) {
+        numbers.insert(parse_integer("--only", word, all.front().number, all.back().number));
+    }
+    std::vector<Figure> chosen;
+    for (const Figure& figure : all) {
+        if (numbers.contains(figure.number)) chosen.push_back(figure);
+    }
+    return chosen;
+}
+
+figures::Size parse_size(const std::string& name) {
+    const auto found = std::ranges::find(figures::kSizeNames, name);
+    if (found == std::end(figures::kSizeNames)) {
+        throw UsageError(fmt::format("--size {}: allowed: small, paper, large", name));
+    }
+    return static_cast<figures::Size>(found - std::begin(figures::kSizeNames));
+}
+
+// The folder, made if need be; everything else that the figures need is there.
+void check_surroundings(const std::vector<Figure>& chosen, const figures::MakeOptions& options) {
+    const fs::path& folder = options.folder;
+    image::check_fonts();
+    if (std::ranges::any_of(chosen, &Figure::is_plot)) check_plotter();
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw UsageError(fmt::format("-o {}: {}", folder.string(), error.message()));
+    for (const Figure& figure : chosen) {
+        for (const fs::path& path : figures::paths_of(figure, options)) image::check_replaceable(path);
+    }
+    image::check_replaceable(folder / kPage);
+}
+
+bool makes_films(const FiguresRequest& request) { return request.html && !request.no_films; }
+
+void say(const char* what, const fs::path& path, bool quiet) {
+    if (!quiet) print_out(fmt::format("{}     {}\n", what, path.string()));
+}
+
+// Each fails alone. False if one did.
+bool make_films(const figures::MakeOptions& options, const std::string& threads) {
+    bool all = true;
+    for (const figures::Film& film : figures::films(options.size)) {
+        const bool kept = !options.overwrite && figures::is_made(film, options.folder, options.quiet);
+        const auto make = [&] {
+            const figures::FilmOptions how{.folder = options.folder,
+                                           .size = options.size,
+                                           .threads = threads,
+                                           .quiet = options.quiet,
+                                           .overwrite = options.overwrite};
+            if (!figures::make_film(film, how)) throw figures::Interrupted();
+        };
+        if (!kept) all &= is_written(options.folder / film.name, make);
+        if (kept) say("kept", options.folder / film_files(film).front(), options.quiet);
+    }
+    return all;
+}
+
+void make_page(const figures::MakeOptions& options) {
+    figures::write_page(options.folder);
+    say("made", options.folder / kPage, options.quiet);
+}
+
+int figures_command(const FiguresRequest& request) {
+    static parallel::CancelToken cancel;
+    const std::vector<Figure> chosen = chosen_figures(request.only);
+    const figures::MakeOptions options{.folder = request.folder,
+                                       .size = parse_size(request.size),
+                                       .threads = parse_integer("--threads", request.threads, 0, kMostThreads),
+                                       .quiet = request.quiet,
+                                       .overwrite = request.overwrite};
+    check_surroundings(chosen, options);
+    if (makes_films(request)) find_program("ffmpeg", "ffmpeg", "video");
+    parallel::cancel_on_signals(cancel);
+    int exit_code = 0;
+    try {
+        if (!figures::make_figures(chosen, options, cancel)) exit_code = kExitRuntime;
+        if (makes_films(request) && !make_films(options, request.threads)) exit_code = kExitRuntime;
+        if (request.html) make_page(options);
+    } catch (const figures::Interrupted&) {
+        if (!options.quiet) print_out("stopped  finished figures are kept: the same command makes the rest\n");
+    }
+    return parallel::cancelling_signal() != 0 ? kExitSignal + parallel::cancelling_signal() : exit_code;
+}
+
+}  // namespace
+
+void add_figures_command(Command& program, int& exit_code) {
+    Command* command = program.add_subcommand("figures", "Make the figures of Gamito & Maddock 2006 anew");
+    auto request = std::make_shared<FiguresRequest>();
+    command->add_option("--only", request->only, "Figures to make, 1 to 8, separated by commas; default all")
+        ->type_name("K,K...");
+    command->add_option("-o,--output", request->folder, "Folder to write to, made if it is not there")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--size", request->size,
+            "small, paper or large: lengths in pixels at half, once and twice the paper's; the numbers of samples "
+            "stay")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
+        ->type_name("n")
+        ->capture_default_str();
+    command->add_flag("--overwrite", request->overwrite, "Make figures anew that are there already");
+    command->add_flag(
+        "--html", request->html,
+        "Make the two animations (webm and mp4) and DIR/index.html too: every figure and film of the folder, "
+        "with captions and sliders between pictures");
+    command->add_flag("--no-films", request->no_films, "With --html: leave the animations as they are");
+    command->add_flag("--quiet", request->quiet, "No progress and no list of what was made");
+    command->footer(
+        "1  B-splines and their spectra          5  the whole surface\n"
+        "2  iterations of the inverse            6  an area of it: none; cubic with N = 2, 3, 10\n"
+        "3  sampling patterns                    7  another: none; m = 1, 4, 15 at N = 10\n"
+        "4  zone plate and receding checker      8  the wagon wheel: box and cubic in time\n"
+        "Each is figure-K.png (plots: figure-K.svg too), the panels and float EXR parts it was assembled from, and\n"
+        "figure-K.json: one line with every parameter and with what was chosen where the paper does not tell.\n"
+        "A figure that is there, whole, with the same parameters and by the same version, is kept; one with\n"
+        "an empty, cut or damaged file is made again; plots are drawn anew.\n"
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, 129, 130 or 143 interrupted.");
+    command->callback([request, &exit_code] { exit_code = figures_command(*request); });
+}
+
+}  // namespace strata::tools

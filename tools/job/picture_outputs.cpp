@@ -1,0 +1,121 @@
+#include "tools/job/picture_outputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "src/image/stream_target.h"
+#include "tools/cli/planned_files.h"
+#include "tools/cli/standard_output.h"
+
+namespace strata::tools {
+
+namespace fs = std::filesystem;
+
+PictureOutputs::PictureOutputs(const Job& job) : job_(job) {
+    for (const fs::path& path : job.outputs) {
+        outputs_.push_back({path, std::make_unique<image::OutputFile>(path), std::nullopt});
+    }
+    for (const Aov aov : job.aovs) costs_.emplace_back(job, aov);
+}
+
+void PictureOutputs::begin(Output& output, const image::Metadata& metadata) {
+    output.stream.emplace(std::move(output.file), job_.shape(), metadata, job_.write);
+}
+
+void PictureOutputs::begin(const image::Metadata& metadata) {
+    for (Output& output : outputs_) begin(output, metadata);
+}
+
+void PictureOutputs::begin_late(const image::Metadata& metadata) {
+    for (Output& output : outputs_) is_written(output.path, [&] { begin(output, metadata); });
+}
+
+// Of each file that is left: a failure ends that file alone.
+template <class Action>
+void PictureOutputs::for_each(const Action& action) {
+    for (Output& output : outputs_) {
+        if (!output.stream) continue;
+        if (!is_written(output.path, [&] { action(output); })) output.stream.reset();
+    }
+}
+
+void PictureOutputs::write_rows(std::span<const glm::vec3> pixels, std::span<const float> extra) {
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    const std::span<const float> rgb(&pixels[0].x, 3 * pixels.size());
+    for_each([&](Output& output) { output.stream->write(rgb, extra); });
+}
+
+void PictureOutputs::write(const film::Film& strip) {
+    write_rows(strip.pixels(), aov_values(job_.aovs, strip));
+    for (Costs& costs : costs_) costs.picture.add(strip);
+}
+
+void PictureOutputs::write_whole(const film::Film& film) {
+    const std::span<const glm::vec3> pixels(film.pixels());
+    const auto strip = static_cast<std::size_t>(film.window().width()) * image::kStripRows;
+    for (std::size_t begin = 0; begin < pixels.size(); begin += strip) {
+        write_rows(pixels.subspan(begin, std::min(strip, pixels.size() - begin)), {});
+    }
+}
+
+bool PictureOutputs::any() const {
+    return std::ranges::any_of(outputs_, [](const Output& output) { return output.stream.has_value(); });
+}
+
+bool PictureOutputs::all() const {
+    return std::ranges::all_of(outputs_, [](const Output& output) { return output.stream.has_value(); });
+}
+
+bool PictureOutputs::write_costs() {
+    bool all = true;
+    for (Costs& costs : costs_) {
+        const fs::path& path = costs.file.target();
+        all &= is_written(path, [&] {
+            const image::Canvas canvas = costs.picture.draw(job_.loaded.scene.title);
+            costs.file.write_at(0, image::encode_canvas(path, canvas, job_.metadata));
+            costs.file.put_in_place();
+            tell_written(path);
+        });
+    }
+    return all;
+}
+
+bool PictureOutputs::write_partial_costs(const image::Metadata& metadata) {
+    bool all = true;
+    for (const Costs& costs : costs_) {
+        const fs::path path = partial_path(job_, costs.file.target());
+        all &= is_written(path, [&] {
+            image::write_canvas(path, costs.picture.draw(job_.loaded.scene.title), metadata);
+            tell_written(path);
+        });
+    }
+    return all;
+}
+
+void PictureOutputs::tell_written(const fs::path& path) const {
+    if (!job_.quiet) print_out(fmt::format("wrote    {}\n", path.string()));
+}
+
+bool PictureOutputs::finish() {
+    for_each([&](Output& output) {
+        output.stream->finish();
+        tell_written(output.path);
+    });
+    return write_costs() && all();
+}
+
+bool PictureOutputs::finish_partial(const image::Metadata& metadata) {
+    for_each([&](Output& output) {
+        // Whoever reads a stream could not tell a part from the whole.
+        if (image::stream_target(output.path)) return;
+        const fs::path target = partial_path(job_, output.path);
+        output.stream->finish_partial(target, metadata);
+        tell_written(target);
+    });
+    return write_partial_costs(metadata) && all();
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,289 @@
+#include "tools/job/render_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "noise/simd_target.h"
+#include "src/image/file_paths.h"
+#include "src/image/format.h"
+#include "src/image/image_error.h"
+#include "src/image/output_file.h"
+#include "src/image/read.h"
+#include "src/image/stream_target.h"
+#include "src/image/text.h"
+#include "src/parallel/processors.h"
+#include "src/scene/enum_names.h"
+#include "src/scene/key_text.h"
+#include "src/scene/typed_number.h"
+#include "tools/cli/duration.h"
+#include "tools/cli/errors.h"
+#include "tools/cli/planned_files.h"
+#include "tools/cli/standard_output.h"
+#include "tools/job/clipping.h"
+#include "tools/job/picture_metadata.h"
+#include "tools/job/run_statistics.h"
+
+namespace strata::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostThreads = 1024;  // each has buffers of its own
+constexpr int kLargestTile = 1024;  // progress and the prediction of the time come by the tile
+
+// An option given here, else what the picture that is rendered again recorded, else the default.
+std::string choose(const std::string& given, const std::optional<std::string>& recorded, const char* otherwise) {
+    return !given.empty() ? given : recorded.value_or(otherwise);
+}
+
+image::ExrFormat parse_format(const std::string& name) {
+    if (name == "half") return image::ExrFormat::half;
+    if (name == "float") return image::ExrFormat::floating;
+    throw UsageError(fmt::format("--format {}: allowed: half, float; exr, png, tif, jpg of a pipe or standard output",
+                                 scene::excerpt(name)));
+}
+
+// What --format says of EXR channels; nothing where it names the format of a stream.
+std::string channels_format(const RenderRequest& request) {
+    return image::known_format("." + request.format) ? "" : request.format;
+}
+
+// A stream whose name does not tell its format gets that of --format in front: "png:-".
+fs::path with_format(const fs::path& path, const std::string& format) {
+    const auto stream = image::stream_target(path);
+    if (!stream || stream->format || !image::known_format("." + format)) return path;
+    return format + ":" + path.string();
+}
+
+void check_stream_format(const RenderRequest& request) {
+    const auto is_stream = [](const std::string& path) { return image::stream_target(path).has_value(); };
+    if (!image::known_format("." + request.format) || std::ranges::any_of(request.outputs, is_stream)) return;
+    throw UsageError(
+        fmt::format("--format {}: allowed with -o - or a pipe; a file's extension tells its format", request.format));
+}
+
+// Bits depend on the SIMD target: a picture is rendered again on its own, where that is here.
+void choose_simd_target(const RenderRequest& request, const LoadedScene& loaded) {
+    if (!request.simd.empty()) return use_simd_target(request.simd);
+    if (!loaded.simd_target || noise::pin_simd_target(*loaded.simd_target) || request.quiet) return;
+    print_error(
+        fmt::format("warning: {} was made with --simd {}, which this machine lacks; with {} it may differ by "
+                    "rounding",
+                    loaded.source, *loaded.simd_target, noise::simd_target()));
+}
+
+// One pass is not held whole.
+void check_memory(const film::Rect& window, const render::PassGoal& goal, const scene::Scene& scene) {
+    if (goal.passes == 1) return;
+    const estimate::Estimator estimator(estimate::estimator_settings(scene));
+    const double needed = 1.0 * render::bytes_a_pixel_of_passes(estimator) * window.width() * window.height();
+    const double present = static_cast<double>(parallel::available_memory_bytes());
+    if (needed <= present) return;
+    throw UsageError(
+        fmt::format("{}x{} pixels in passes need {:.1f} GB of memory, there are {:.1f} GB (of this machine, or of its "
+                    "container); allowed: one pass, a "
+                    "smaller --size, or the frame in parts by --crop",
+                    window.width(), window.height(), needed / 1e9, present / 1e9));
+}
+
+double parse_target(const std::string& text) {
+    constexpr double kLeast = 1e-9, kMost = 1e6;
+    const auto value = scene::typed_number(text);
+    if (value && *value >= kLeast && *value <= kMost) return *value;
+    throw UsageError(
+        fmt::format("--target-rmse {}: allowed: a linear radiance, {} to {}", scene::excerpt(text), kLeast, kMost));
+}
+
+render::PassGoal choose_goal(const RenderRequest& request, const LoadedScene& loaded) {
+    const scene::EstimatorKind estimator = loaded.scene.sampling.estimator;
+    render::PassGoal goal;
+    if (!request.target_rmse.empty()) goal.target_rmse = parse_target(request.target_rmse);
+    if (!request.time_limit.empty()) goal.time_limit_s = parse_duration("--time-limit", request.time_limit);
+    const bool open_ended = goal.target_rmse > 0 || goal.time_limit_s > 0;
+    if (open_ended) goal.passes = render::kMostPasses;
+    if (!request.passes.empty()) goal.passes = parse_integer("--passes", request.passes, 1, render::kMostPasses);
+    if (goal.passes > 1 && !render::passes_differ(estimator)) {
+        throw UsageError(fmt::format(
+            "{}: passes of the estimator '{}' are all alike, their mean is no better than one; allowed with passes: "
+            "jittered, stratified, random, sobol, shared, shared-sobol",
+            !request.target_rmse.empty() ? "--target-rmse"
+            : open_ended                 ? "--time-limit"
+                                         : "--passes",
+            scene::name_of(estimator)));
+    }
+    // A picture rendered again with another estimator may have lost its use for passes.
+    if (request.passes.empty() && !open_ended && loaded.passes && render::passes_differ(estimator)) {
+        goal.passes =
+            parse_integer((loaded.source + ": its strata:passes").c_str(), *loaded.passes, 1, render::kMostPasses);
+    }
+    return goal;
+}
+
+void check_output(const fs::path& path, const Job& job) {
+    try {
+        image::format_of(path);
+        image::check_size(path, job.window.width(), job.window.height());
+    } catch (const image::ImageError& error) {
+        throw UsageError(error.what());
+    }
+    if (image::stream_target(path)) return image::check_writable(path);
+    if (image::is_one_file(path, job.loaded.source) && !image::is_picture(path)) {
+        throw UsageError(fmt::format("{}: this output is the scene file itself", path.string()));
+    }
+    image::check_writable(path);
+}
+
+// Each file once, however often and by whatever name it was asked for.
+std::vector<fs::path> output_paths(const RenderRequest& request, const Job& job) {
+    const std::string& name = job.loaded.name;
+    std::vector<fs::path> asked;
+    for (const std::string& typed : request.outputs) asked.push_back(with_format(typed, request.format));
+    if (asked.empty()) asked = {name + ".exr", name + ".png"};
+    std::vector<fs::path> paths;
+    for (const fs::path& path : asked) {
+        check_output(path, job);
+        if (std::ranges::none_of(paths, [&](const fs::path& other) { return image::is_one_file(path, other); })) {
+            paths.push_back(path);
+        }
+    }
+    if (std::ranges::count_if(paths, image::is_standard_output) > 1) {
+        throw UsageError("-o: two pictures for standard output, allowed: one");
+    }
+    return paths;
+}
+
+void choose_aovs(const RenderRequest& request, Job& job) {
+    job.aovs = aovs_of(request.aov, job.loaded, job.goal.passes);
+    if (job.aovs.empty()) return;
+    image::check_fonts();
+    job.write.exr_extra = aov_channels(job.aovs);
+}
+
+void check_aov_paths(const Job& job) {
+    for (const Aov aov : job.aovs) {
+        const fs::path path = aov_path(job, aov);
+        image::check_writable(path);
+        if (std::ranges::any_of(job.outputs,
+                                [&](const fs::path& output) { return image::is_one_file(path, output); })) {
+            throw UsageError(
+                fmt::format("-o {}: allowed: another name, this is where --aov {} goes", path.string(), name_of(aov)));
+        }
+    }
+}
+
+void check_statistics(const Job& job) {
+    if (job.statistics.empty()) return;
+    image::check_replaceable(job.statistics);
+    const auto is_statistics = [&](const fs::path& path) {
+        if (image::is_standard_output(path) && image::is_standard_output(job.statistics)) return true;
+        return image::is_one_file(path, job.statistics);
+    };
+    if (is_statistics(job.loaded.source) || std::ranges::any_of(job.outputs, is_statistics)) {
+        throw UsageError(fmt::format("--stats {}: allowed: a file of its own", job.statistics.string()));
+    }
+}
+
+// All that is written, as it was asked for.
+std::vector<NamedOutput> named_outputs(const Job& job) {
+    std::vector<NamedOutput> outputs;
+    for (const fs::path& path : job.outputs) outputs.push_back({fmt::format("-o {}", path.string()), path});
+    for (const Aov aov : job.aovs) {
+        outputs.push_back({fmt::format("--aov {}", name_of(aov)), aov_path(job, aov)});
+    }
+    if (!job.statistics.empty())
+        outputs.push_back({fmt::format("--stats {}", job.statistics.string()), job.statistics});
+    return outputs;
+}
+
+// The folders of links may differ from that of the output.
+void check_partial_paths(const Job& job) {
+    for (const NamedOutput& output : named_outputs(job)) {
+        if (output.path == job.statistics || image::stream_target(output.path)) continue;
+        image::check_writable(partial_path(job, output.path));
+    }
+}
+
+// What a format does not hold, though the number of passes were the longest.
+void check_limits(const Job& job) {
+    for (const fs::path& path : job.outputs) {
+        try {
+            image::check_encodable(path, job.shape(), final_metadata(job, job.goal.passes, true), job.write);
+        } catch (const image::ImageError& error) {
+            throw UsageError(error.what());
+        }
+    }
+}
+
+}  // namespace
+
+fs::path aov_path(const Job& job, Aov aov) {
+    const bool is_stream = image::stream_target(job.outputs.front()).has_value();
+    const fs::path path = is_stream ? fs::path(job.loaded.name + ".png") : job.outputs.front();
+    return image::derived_path(path, fmt::format(".{}.png", name_of(aov)));
+}
+
+fs::path partial_path(const Job& job, const fs::path& path) {
+    const std::vector<NamedOutput> outputs = named_outputs(job);
+    for (int i = 1;; ++i) {
+        const std::string count = i == 1 ? "" : fmt::format("-{}", i);
+        fs::path partial = image::derived_path(path, fmt::format(".partial{}{}", count, path.extension().string()));
+        const auto is_it = [&](const NamedOutput& output) { return image::is_one_file(output.path, partial); };
+        if (std::ranges::none_of(outputs, is_it)) return partial;
+    }
+}
+
+image::Metadata final_metadata(const Job& job, int passes, bool is_partial) {
+    image::Metadata metadata = job.metadata;
+    set_passes(metadata, job.loaded.scene.sampling, passes);
+    if (!is_partial) return metadata;
+    metadata.set("strata:partial", passes == 0 ? "unfinished pixels are black"
+                                               : fmt::format("the mean of {} whole passes; more were wanted", passes));
+    return metadata;
+}
+
+image::PictureShape Job::shape() const {
+    const scene::Film& frame = loaded.scene.film;
+    return {frame.width, frame.height, window.x0, window.y0, window.x1, window.y1};
+}
+
+Job prepare(const RenderRequest& request) {
+    Job job;
+    job.quiet = request.quiet;
+    job.threads = parse_integer("--threads", request.threads, 0, kMostThreads);
+    job.tile = parse_integer("--tile", request.tile, 1, kLargestTile);
+    job.loaded = request.scene.load();
+    choose_simd_target(request, job.loaded);
+    job.window = window_of(request.crop, job.loaded);
+    job.tracer = choose(request.tracer, job.loaded.tracer, "fast");
+    parse_tracer(job.tracer);
+    check_stream_format(request);
+    const std::string format = choose(channels_format(request), job.loaded.exr_format, "half");
+    const bool is_tiled = request.tiled || job.loaded.is_tiled;
+    job.write = {.colour = image::colour_out(job.loaded.scene.film),
+                 .exr_format = parse_format(format),
+                 .exr_layout = is_tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic,
+                 .frames_per_second = frame_rate(job.loaded.scene)};
+    if (!request.quiet) job.write.warn = warn_of_clipping;
+    job.goal = choose_goal(request, job.loaded);
+    choose_aovs(request, job);
+    check_memory(job.window, job.goal, job.loaded.scene);
+    job.outputs = output_paths(request, job);
+    check_aov_paths(job);
+    job.statistics = request.statistics;
+    check_statistics(job);
+    refuse_shared(named_outputs(job));
+    check_partial_paths(job);
+    for (const fs::path& path : job.outputs) keep_output_for(path);
+    keep_output_for(job.statistics);
+    job.metadata = picture_metadata(job.loaded.scene, job.window, job.tracer, format);
+    if (is_tiled) job.metadata.set("strata:tiled", "asked for");
+    std::string aovs;
+    for (const Aov aov : job.aovs) aovs += fmt::format("{}{}", aovs.empty() ? "" : ",", name_of(aov));
+    if (!aovs.empty()) job.metadata.set("strata:aov", aovs);
+    check_limits(job);
+    return job;
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,221 @@
+#include "tools/job/run_statistics.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "noise/simd_target.h"
+#include "tools/cli/progress_printer.h"
+
+namespace strata::tools {
+
+namespace {
+
+std::uint64_t peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+// 12345678 -> "12.3 M".
+std::string scaled(double count) {
+    if (count >= 1e9) return fmt::format("{:.2f} G", count / 1e9);
+    if (count >= 1e6) return fmt::format("{:.2f} M", count / 1e6);
+    if (count >= 1e4) return fmt::format("{:.1f} k", count / 1e3);
+    return fmt::format("{:.0f}", count);
+}
+
+const char* end_name(render::PassesEnd end) {
+    switch (end) {
+        case render::PassesEnd::passes:
+            return "passes";
+        case render::PassesEnd::target:
+            return "target-rmse";
+        case render::PassesEnd::time:
+            return "time-limit";
+        case render::PassesEnd::cancelled:
+            return "interrupted";
+        case render::PassesEnd::not_finite:
+            return "not finite";
+    }
+    return "";
+}
+
+std::string verdict(const PassStatistics& passes) {
+    if (passes.end == render::PassesEnd::not_finite) return "some radiance is not finite: no error can be told";
+    if (passes.goal.target_rmse <= 0) return passes.end == render::PassesEnd::time ? "time limit reached" : "";
+    const bool reached = passes.end == render::PassesEnd::target;
+    return fmt::format("target {:.3g} {}", passes.goal.target_rmse,
+                       reached                                      ? "reached"
+                       : passes.end == render::PassesEnd::time      ? "not reached in time"
+                       : passes.end == render::PassesEnd::cancelled ? "not yet reached"
+                                                                    : "not reached in these passes");
+}
+
+std::string passes_summary(const PassStatistics& passes) {
+    std::string text = fmt::format("passes   {}", passes.passes);
+    if (passes.error && std::isfinite(passes.error->high)) {
+        text += fmt::format(", sampling error {:.3g} RMSE (95 % sure: below {:.3g})", passes.error->rmse,
+                            passes.error->high);
+    } else if (passes.error) {
+        text += fmt::format(", sampling error about {:.3g} RMSE", passes.error->rmse);
+    }
+    const std::string said = verdict(passes);
+    return text + (said.empty() ? "" : ", ") + said + "\n";
+}
+
+// null where nothing is known: JSON has no infinity.
+nlohmann::ordered_json number_or_null(double value, bool known = true) {
+    if (!known || !std::isfinite(value)) return nullptr;
+    return value;
+}
+
+nlohmann::ordered_json passes_json(const PassStatistics& passes) {
+    const render::ErrorEstimate error = passes.error.value_or(render::ErrorEstimate{});
+    const bool known = passes.error.has_value();
+    nlohmann::ordered_json predicted = nullptr;
+    if (passes.predicted_passes) predicted = *passes.predicted_passes;
+    return {{"passes", passes.passes},
+            {"stopped_by", end_name(passes.end)},
+            {"estimated_rmse", number_or_null(error.rmse, known)},
+            {"estimated_rmse_low", number_or_null(error.low, known)},
+            {"estimated_rmse_high", number_or_null(error.high, known)},
+            {"estimated_bias", number_or_null(error.bias, known)},
+            {"target_rmse", number_or_null(passes.goal.target_rmse, passes.goal.target_rmse > 0)},
+            {"time_limit_s", number_or_null(passes.goal.time_limit_s, passes.goal.time_limit_s > 0)},
+            {"predicted_passes", predicted},
+            {"predicted_seconds", number_or_null(passes.predicted_seconds, passes.predicted_seconds > 0)}};
+}
+
+// What shares refer to: phases are measured by the clock, which runs on while others have the processor.
+double thread_seconds(const RunStatistics& statistics) {
+    double phases_s = 0.0;
+    for (const integrate::PhaseCost& cost : statistics.counters.phases) phases_s += cost.seconds;
+    return std::max({statistics.cpu_seconds, phases_s, 1e-9});
+}
+
+// The image function's phases, and `samples and film` for what it does not account for.
+std::vector<std::pair<std::string, integrate::PhaseCost>> phases(const RunStatistics& statistics) {
+    std::vector<std::pair<std::string, integrate::PhaseCost>> phases;
+    double rest_s = thread_seconds(statistics);
+    for (std::size_t i = 0; i < integrate::kPhases; ++i) {
+        const integrate::PhaseCost& cost = statistics.counters.phases[i];
+        if (cost.seconds == 0.0) continue;
+        phases.emplace_back(integrate::name_of(static_cast<integrate::Phase>(i)), cost);
+        rest_s -= cost.seconds;
+    }
+    phases.push_back({"samples and film", {.seconds = std::max(rest_s, 0.0)}});
+    return phases;
+}
+
+nlohmann::ordered_json phases_json(const RunStatistics& statistics) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const auto& [name, cost] : phases(statistics)) {
+        json.push_back({{"phase", name},
+                        {"seconds", cost.seconds},
+                        {"share", cost.seconds / thread_seconds(statistics)},
+                        {"steps", cost.steps},
+                        {"noise_evaluations", cost.noise_evaluations}});
+        if (cost.left_out.total() == 0) continue;
+        json.back()["octaves_left_out"] = {{"too_fine_for_the_step", cost.left_out.too_fine},
+                                           {"sign_settled_without", cost.left_out.settled},
+                                           {"in_a_window", cost.left_out.in_window}};
+    }
+    return json;
+}
+
+// A share of what all octaves at every point looked at would have been.
+std::string left_out_summary(const integrate::Counters& counters) {
+    trace::LeftOut left;
+    for (const integrate::PhaseCost& cost : counters.phases) left += cost.left_out;
+    const double all = static_cast<double>(left.total() + counters.noise_evaluations) * 0.01;
+    if (left.total() == 0) return {};
+    return fmt::format(
+        "left out {:.0f} % of octaves: too fine for the step {:.0f} %, sign settled without {:.0f} %, "
+        "in a window {:.0f} %\n",
+        static_cast<double>(left.total()) / all, static_cast<double>(left.too_fine) / all,
+        static_cast<double>(left.settled) / all, static_cast<double>(left.in_window) / all);
+}
+
+std::string phases_summary(const RunStatistics& statistics) {
+    std::string text = "phases   ";
+    const char* separator = "";
+    for (const auto& [name, cost] : phases(statistics)) {
+        text += fmt::format("{}{} {:.0f} %", separator, name, 100.0 * cost.seconds / thread_seconds(statistics));
+        separator = ", ";
+    }
+    return text + "\n";
+}
+
+}  // namespace
+
+RunStatistics collect(const render::ProgressiveResult& result, const render::PassGoal& goal, const std::string& scene) {
+    RunStatistics statistics = collect(result.render, scene);
+    if (goal.passes > 1) {
+        statistics.passes = PassStatistics{goal,         result.passes,           result.end,
+                                           result.error, result.predicted_passes, result.predicted_seconds};
+    }
+    return statistics;
+}
+
+RunStatistics collect(const render::RenderResult& result, const std::string& scene) {
+    return {.counters = result.counters,
+            .seconds = result.seconds,
+            .cpu_seconds = result.cpu_seconds,
+            .threads = result.threads,
+            .simd_target = noise::simd_target(),
+            .peak_memory_bytes = peak_memory(),
+            .scene = scene,
+            .settings_mark = {},
+            .passes = {}};
+}
+
+std::string summary(const RunStatistics& statistics) {
+    const integrate::Counters& c = statistics.counters;
+    const double rays = static_cast<double>(c.rays), shadow_rays = static_cast<double>(c.shadow_rays);
+    std::string text = fmt::format("time     {} ({:.2f} s on {} thread{}, {:.2f} s of CPU, {})\n",
+                                   duration_text(statistics.seconds), statistics.seconds, statistics.threads,
+                                   statistics.threads == 1 ? "" : "s", statistics.cpu_seconds, statistics.simd_target);
+    text += fmt::format("rays     {} and {} shadow rays, {}rays/s\n", scaled(rays), scaled(shadow_rays),
+                        scaled((rays + shadow_rays) / std::max(statistics.seconds, 1e-9)));
+    if (c.noise_evaluations > 0) {
+        text += fmt::format("noise    {:.1f} evaluations a ray, shadow rays and normals included in the count\n",
+                            static_cast<double>(c.noise_evaluations) / std::max(1.0, rays + shadow_rays));
+    }
+    text += left_out_summary(c);
+    if (c.steps > 0) text += phases_summary(statistics);
+    if (statistics.passes) text += passes_summary(*statistics.passes);
+    text += fmt::format("memory   {:.0f} MB at most\n", static_cast<double>(statistics.peak_memory_bytes) / 1e6);
+    return text;
+}
+
+std::string statistics_json(const RunStatistics& statistics) {
+    const integrate::Counters& c = statistics.counters;
+    nlohmann::ordered_json json = {{"scene", statistics.scene},
+                                   {"version", STRATA_VERSION},
+                                   {"simd_target", statistics.simd_target},
+                                   {"threads", statistics.threads},
+                                   {"rays", c.rays},
+                                   {"shadow_rays", c.shadow_rays},
+                                   {"hits", c.hits},
+                                   {"unresolved_rays", c.unresolved_rays},
+                                   {"noise_evaluations", c.noise_evaluations},
+                                   {"executed_lanes", c.executed_lanes},
+                                   {"steps", c.steps},
+                                   {"seconds", statistics.seconds},
+                                   {"cpu_seconds", statistics.cpu_seconds},
+                                   {"peak_memory_bytes", statistics.peak_memory_bytes},
+                                   {"phases", phases_json(statistics)}};
+    if (!statistics.settings_mark.empty()) json["settings_mark"] = statistics.settings_mark;
+    if (statistics.passes) json.update(passes_json(*statistics.passes));
+    // A scene's file name need not be UTF-8.
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace strata::tools
