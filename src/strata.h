@@ -72,9 +72,9 @@ class Scene {
     // The text of a scene file. `source` stands in front of messages.
     static Scene parse(std::string_view toml, std::string_view source = "scene");
 
-    // Sets one key, "section.name". Text is TOML, but words need no quotes: set("sampling.estimator", "sobol"). Counts
-    // and seeds take whole numbers only. What one key can tell is checked here, what several tell together by check();
-    // on Error the scene is as before.
+    // Sets one key, "section.name", or "relief.TERM.name" of a term that the scene has: TOML alone adds terms. Text is
+    // TOML, but words need no quotes: set("sampling.estimator", "sobol"). Counts and seeds take whole numbers only.
+    // What one key can tell is checked here, what several tell together by check(); on Error the scene is as before.
     void set(std::string_view key, std::string_view value);
     void set(std::string_view key, const char* value) { set(key, std::string_view(value)); }
     void set(std::string_view key, const Vector& value);

@@ -25,9 +25,7 @@ namespace {
 void assign(scene::Scene& scene, std::string_view name, std::string_view value) {
     scene::Scene changed = scene;
     const std::vector<scene::Section> sections = scene::describe(changed);
-    const auto dot = name.rfind('.');  // a term of the relief has one in its section's name
-    const std::string_view section_name = dot == std::string_view::npos ? "" : name.substr(0, dot);
-    const std::string_view key_name = dot == std::string_view::npos ? name : name.substr(dot + 1);
+    const auto [section_name, key_name] = scene::key_path(name);
     const scene::Section* section = scene::find_section(sections, section_name);
     const scene::Key* key = section ? scene::find_key(*section, key_name) : nullptr;
     if (!key) throw Error(scene::unknown_key(sections, section_name, key_name));
@@ -45,9 +43,8 @@ auto with_key(const scene::Scene& scene, std::string_view name, const Use& use) 
             if (key.full_name() == name) return use(key);
         }
     }
-    const auto dot = name.rfind('.');  // a term of the relief has one in its section's name
-    const bool is_top = dot == std::string_view::npos;
-    throw Error(scene::unknown_key(sections, is_top ? "" : name.substr(0, dot), is_top ? name : name.substr(dot + 1)));
+    const auto [section_name, key_name] = scene::key_path(name);
+    throw Error(scene::unknown_key(sections, section_name, key_name));
 }
 
 std::string picture_scene(const std::filesystem::path& file) {

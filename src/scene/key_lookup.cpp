@@ -53,6 +53,12 @@ std::optional<std::string> meant_key(std::span<const Section> sections, const Se
 
 }  // namespace
 
+KeyPath key_path(std::string_view full_name) {
+    const auto dot = full_name.rfind('.');
+    if (dot == std::string_view::npos) return {"", full_name};
+    return {full_name.substr(0, dot), full_name.substr(dot + 1)};
+}
+
 const Section* find_section(std::span<const Section> sections, std::string_view name) {
     const auto found = std::find_if(sections.begin(), sections.end(), [&](const Section& s) { return s.name == name; });
     return found == sections.end() ? nullptr : &*found;

@@ -9,6 +9,13 @@
 
 namespace strata::scene {
 
+// "section.key" parted at its last dot: a term of the relief has one in its section's name. No dot: the top of the
+// file.
+struct KeyPath {
+    std::string_view section, name;
+};
+KeyPath key_path(std::string_view full_name);
+
 // The section or key of that name, or null. An empty section name is the top of the file.
 const Section* find_section(std::span<const Section> sections, std::string_view name);
 const Key* find_key(const Section& section, std::string_view name);

@@ -26,11 +26,7 @@ void assign(Scene& scene, std::string_view assignment) {
     if (equals == std::string_view::npos) {
         throw SceneError("no '=', allowed: section.key=value, such as camera.fov_deg=35");
     }
-    const std::string_view full_name = trimmed(assignment.substr(0, equals));
-    const auto dot = full_name.rfind('.');  // a term of the relief has one in its section's name
-    const std::string_view section_name = dot == std::string_view::npos ? "" : full_name.substr(0, dot);
-    const std::string_view name = dot == std::string_view::npos ? full_name : full_name.substr(dot + 1);
-
+    const auto [section_name, name] = key_path(trimmed(assignment.substr(0, equals)));
     const std::vector<Section> sections = describe(scene);
     const Section* section = find_section(sections, section_name);
     const Key* key = section ? find_key(*section, name) : nullptr;

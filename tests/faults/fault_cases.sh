@@ -4,7 +4,7 @@
 #   earlier    what is there before it: files of the word "earlier", or a command line
 #   varying    a pattern of the files that hold times: they are held against their format, the others against the bytes
 #              of a run without faults
-#   lost       a pattern of files that may be gone afterwards: a record must not outlive what it tells of
+#   lost       a pattern of records that may be gone or emptied afterwards: none must outlive what it tells of
 #   extra      a pattern of files that may be left in addition, for the next run of the same command
 #   with_fakes whether other programs are the test's own
 # shellcheck disable=SC2034 # used by test_faults.sh

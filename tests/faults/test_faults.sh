@@ -104,6 +104,8 @@ state_of() { # case file
     # shellcheck disable=SC2053 # patterns are meant
     if [[ ! -e $now ]]; then
         [[ -e $old && $2 != ${lost[$1]-} ]] && echo lost || echo absent
+    elif [[ $2 == ${lost[$1]-} && $(<"$now") == '{}' ]]; then
+        echo absent
     elif [[ -e $old ]] && cmp -s "$old" "$now"; then
         # What stays as it is, is no missing output.
         [[ -e $new ]] && cmp -s "$old" "$new" && echo new || echo old

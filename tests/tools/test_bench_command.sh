@@ -74,7 +74,8 @@ check_peers_and_memory() {
 check_signal() {
     "${interruptible[@]}" "$strata" bench --only scenes --quiet -o stopped 2>said &
     local pid=$!
-    sleep 2
+    await_handler "$pid"
+    sleep 0.5
     kill -INT "$pid"
     wait "$pid"
     expect 'SIGINT ends a run with 130' "$?" 130

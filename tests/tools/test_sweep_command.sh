@@ -73,6 +73,8 @@ check_interruption() {
 }
 
 check_axes_and_references() {
+    run sweep massif --size 8x8 --N 1 --axis relief.crests.octaves=2,3 --reference none --quiet -o relief
+    expect 'a key of a relief term is an axis' "$status: $output$(cd relief && echo octaves*)" '0: octaves02.exr octaves03.exr'
     run sweep "${tiny[@]}" --estimator none,sobol --axis octaves=2,3 -N 2 --crop 2,2,12,9 -o any
     expect_match 'any two keys are axes' "$status: $(echo any/*)" '0: *estimatornone_octaves02.exr*octaves03.exr*reference_octaves02.exr*'
     run sweep zoneplate --size 24x12 --rows seed=1,2 --reference none -o one
@@ -92,6 +94,8 @@ check_axes_and_references() {
 check_refusals() {
     refuses 'nothing to vary is refused' 2 '*nothing to vary*' sweep terrain
     refuses 'N = 0 is refused' 2 '*--N 0: sampling.N: out of range*1 to 64*' sweep "${tiny[@]}" --N 1,0
+    refuses 'an axis of a term that the scene lacks is refused' 2 '*relief.crusts.octaves*did you mean*' \
+        sweep massif --size 8x8 --N 1 --axis relief.crusts.octaves=1,2
     refuses 'an unknown axis gets the nearest' 2 "*octvaes*did you mean*" sweep "${tiny[@]}" --axis surface.octvaes=1,2
     refuses 'an unknown estimator gets the nearest' 2 "*did you mean 'sobol'*" sweep "${tiny[@]}" --estimator sobl,none
     refuses 'of a list given twice the last counts' 2 '*sampling.N: out of range (99)*' sweep "${tiny[@]}" --N 1,2 --N 99

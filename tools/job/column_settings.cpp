@@ -144,14 +144,12 @@ std::string full_key_name(std::string_view origin, std::string_view name) {
     for (const auto& [short_name, full_name] : kShortNames) {
         if (name == short_name) return std::string(full_name);
     }
+    if (name.starts_with("relief.")) return std::string(name);  // of the scene's own terms, and judged with it
     scene::Scene any;
     const std::vector<scene::Section> sections = scene::describe(any);
-    const auto dot = name.find('.');
-    const std::string_view section_name = dot == std::string_view::npos ? "" : name.substr(0, dot);
+    const auto [section_name, last] = scene::key_path(name);
     const scene::Section* own = scene::find_section(sections, section_name);
-    if (own && scene::find_key(*own, dot == std::string_view::npos ? name : name.substr(dot + 1))) {
-        return std::string(name);
-    }
+    if (own && scene::find_key(*own, last)) return std::string(name);
     std::vector<std::string> found;
     for (const scene::Section& section : sections) {
         if (const scene::Key* key = scene::find_key(section, name)) found.push_back(key->full_name());
@@ -160,7 +158,6 @@ std::string full_key_name(std::string_view origin, std::string_view name) {
     if (found.size() > 1) {
         throw UsageError(fmt::format("{}: {}: several keys end so, allowed: {}", origin, name, fmt::join(found, ", ")));
     }
-    const std::string_view last = dot == std::string_view::npos ? name : name.substr(dot + 1);
     throw UsageError(fmt::format("{}: {}", origin, scene::unknown_key(sections, section_name, last)));
 }
 

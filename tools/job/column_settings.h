@@ -30,7 +30,8 @@ std::vector<ColumnSettings> parse_columns(std::string_view origin, std::string_v
 ColumnSettings parse_column(std::string_view origin, std::string_view text);
 
 // `m` -> `sampling.m`, `fov_deg` -> `camera.fov_deg`, `surface.gain` as it is. Throws UsageError, with the nearest
-// name, for what is no key of a scene file or a last part that several sections have.
+// name, for what is no key of a scene file or a last part that several sections have. `relief.TERM.key` is passed on:
+// which terms there are, is known when it is applied.
 std::string full_key_name(std::string_view origin, std::string_view name);
 
 // The scene with the entry's settings, validated. Throws scene::SceneError, beginning with origin and the entry's text.
