@@ -62,7 +62,7 @@ check_refusals() {
         sweep terrain --size 24x13 --N 1,2 --reference agx.png -o sweep
     refuses 'codes of another saturation are no light either' 2 '*a saturation of 0.5 is in its codes*' \
         strip pale.png -o s.png
-    refuses 'an unknown curve is refused' 2 '*--tone filmic*film.tone*none, reinhard, agx*' \
+    refuses 'an unknown curve is refused' 2 '*--tone filmic*film.tone*"none", "reinhard", "agx"*' \
         render "${tiny[@]}" --tone filmic -o x.png
     refuses 'a white balance that takes a channel away is refused' 2 '*film.white_balance*0.01 to 100*' \
         render "${tiny[@]}" --set 'film.white_balance=[1, 0, 1]' -o x.png
