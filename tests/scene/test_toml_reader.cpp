@@ -37,7 +37,8 @@ std::string load_error_of(const std::string& path) {
 
 const std::string kCameraKeys = "position, look_at, up, fov_deg, far, interpolation, keys";
 const std::string kSections =
-    "film, sampling, shutter, camera, surface, scale, sun, sky, material, zoneplate, checker, wheel, edge, ramp, constant";
+    "film, sampling, shutter, camera, surface, scale, sun, sky, material, zoneplate, checker, wheel, edge, ramp, "
+    "constant";
 
 }  // namespace
 

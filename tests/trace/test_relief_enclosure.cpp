@@ -40,8 +40,8 @@ Claim claim_at(const trace::ReliefPlan& plan, const glm::dvec3& x, double radius
     auto broken = hn::Lt(evaluations, evaluations);
     trace::TraceCounters counters;
     const auto all = hn::Eq(evaluations, evaluations), none = hn::Lt(evaluations, evaluations);
-    const simd::ReliefPoints points{hn::Set(d, static_cast<float>(radius)), all, whole ? all : none, &counters,
-                                    &evaluations, &broken};
+    const simd::ReliefPoints points{
+        hn::Set(d, static_cast<float>(radius)), all, whole ? all : none, &counters, &evaluations, &broken};
     const simd::WidePoint at{wide(x.x), wide(x.y), wide(x.z)};
     const double reach = std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) + radius;
     return lane0(planar ? simd::enclose<true>(plan, at, reach, points) : simd::enclose<false>(plan, at, reach, points));

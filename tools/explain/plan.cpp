@@ -102,7 +102,9 @@ void add_surface(FeatureList& list, const scene::Scene& scene) {
     const bool daylight = scene.sky.model == scene::SkyModel::daylight;
     list.add("daylight", daylight, "sun, sky and air by the Earth's atmosphere: tables of 0.2 s, made once",
              "sky.model is \"gradient\"");
-    list.add("sunlight", daylight || scene.sun.intensity > 0.0, daylight ? "the sun's light through the air" : "sun.intensity is above 0", "sun.intensity is 0: skylight alone");
+    list.add("sunlight", daylight || scene.sun.intensity > 0.0,
+             daylight ? "the sun's light through the air" : "sun.intensity is above 0",
+             "sun.intensity is 0: skylight alone");
     list.add("sky", true, "what rays see that meet nothing, and the skylight");
     list.add("haze", daylight || scene.sky.haze_distance > 0.0,
              daylight ? "the air between, by sky.visibility_km" : "a hit's colour fades into the sky behind it",
