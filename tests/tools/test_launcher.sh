@@ -103,7 +103,7 @@ check_folders() {
 check_rebuilds() {
     local before after
     before=$(stat -c %Y.%i "$clone/.build/release/build.log")
-    touch "$clone/terrain.exr" "$clone/tools/terrain.png" "$clone/README.md"
+    touch "$clone/terrain.exr" "$clone/tools/terrain.png" "$clone/README.md" "$clone/tools/README.md"
     "$strata" >/dev/null
     after=$(stat -c %Y.%i "$clone/.build/release/build.log")
     expect 'pictures and texts do not cause a build' "$after" "$before"

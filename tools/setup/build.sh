@@ -23,10 +23,10 @@ die() {
 }
 
 # One line (time of change, size, path) for each file that a build may depend on, so that an edited, a new, a deleted
-# and a renamed file all show. All kinds of files count but pictures, which people render into any folder.
+# and a renamed file all show. All kinds of files count but texts, and pictures, which people render into any folder.
 take_fingerprint() { # folder under root...
     fingerprint=$(find -L "$root/CMakeLists.txt" "${@/#/$root/}" -name '.?*' -prune -o -type f \
-        ! -name '*~' ! -name '*.exr' ! -name '*.png' ! -name '*.tif' ! -name '*.jpg' -printf '%T@ %s %p\n' 2>/dev/null)
+        ! -name '*~' ! -name '*.md' ! -name '*.exr' ! -name '*.png' ! -name '*.tif' ! -name '*.jpg' -printf '%T@ %s %p\n' 2>/dev/null)
 }
 
 # Whether FOLDER was built completely from what the fingerprint shows.
@@ -73,7 +73,7 @@ configure() { # folder what option...
     if ! cmake --fresh -G Ninja -S "$root" -B "$folder" "$@" >"$folder/build.log" 2>&1 </dev/null; then
         hide_step
         cat "$folder/build.log" >&2
-        die "configuring $what failed: CMake's words are above; README.md lists what is needed"
+        die "configuring $what failed: CMake's words are above; tools/README.md lists what is needed"
     fi
     printf '%s\n' "$configuration" >"$folder/configured"
 }

@@ -1,6 +1,6 @@
 // Traces rays of a scene and has an oracle that shares no code with the tracers judge each by the two promises of
-// README.md: nothing thicker than delta is passed over, and within delta of a reported hit there is a point with f <=
-// 0.
+// src/README.md: nothing thicker than delta is passed over, and within delta of a reported hit there is a point with f
+// <= 0.
 #pragma once
 
 #include <functional>

@@ -89,9 +89,9 @@ class ShadowOracle {
 };
 
 // From the exact root, from delta before it, and from where the renderer leaves: where all agree, delta does not
-// decide. Against the promises (README.md) from the renderer's own start a decision that differs then is impossible: a
-// stretch longer than delta may not be passed over, and what is said to block the light must be there. So the bound is
-// 0.
+// decide. Against the promises (src/README.md) from the renderer's own start a decision that differs then is
+// impossible: a stretch longer than delta may not be passed over, and what is said to block the light must be there. So
+// the bound is 0.
 std::vector<Row> self_shadow(const SceneSpec& spec, const std::string& name, const Settings& settings, Random& random) {
     RayJury jury(spec, settings);
     const ShadowOracle truth(jury.scene().surface);
