@@ -63,7 +63,8 @@ std::string LibraryNoise::text() const {
 }
 
 std::string LibraryNoise::explain(const std::string& error) const {
-    const std::string line = in_one_line(error), noise = text();
+    std::string line = in_one_line(error);  // not const, so that it is moved out
+    const std::string noise = text();
     if (noise.empty() || line.find(noise) != std::string::npos) return line;
     return line.empty() ? noise : fmt::format("{} ({})", line, noise);
 }

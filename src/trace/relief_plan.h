@@ -9,7 +9,7 @@
 namespace strata::trace {
 
 struct ReliefPlan {
-    explicit ReliefPlan(const noise::Relief& relief);
+    explicit ReliefPlan(const noise::Relief& of);
 
     const noise::Relief* relief;
     std::vector<std::vector<TraceOctave>> octaves;  // of each part

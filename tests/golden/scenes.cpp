@@ -3,6 +3,7 @@
 #include <initializer_list>
 
 #include "src/scene/override.h"
+#include "src/scene/toml_reader.h"
 #include "src/scene/validate.h"
 
 namespace strata::golden {
@@ -159,11 +160,60 @@ std::vector<GoldenScene> estimators() {
     };
 }
 
+// Composed reliefs: every type of term, over the plane and in space.
+std::vector<GoldenScene> reliefs() {
+    const std::string crests = R"([[relief]]
+name = "crests"
+type = "ridged"
+octaves = 4
+frequency = 0.3
+seed = 7
+[[relief]]
+name = "bent"
+type = "warp"
+of = ["crests"]
+amplitude = 0.5
+)";
+    const std::string landform = crests + R"([[relief]]
+name = "massif"
+type = "envelope"
+of = ["bent"]
+z = 5.0
+[[relief]]
+name = "level"
+type = "fill"
+of = ["massif"]
+[[relief]]
+name = "carved"
+type = "gullies"
+of = ["level", "crests"]
+octaves = 2
+[[relief]]
+name = "rough"
+type = "fbm"
+octaves = 4
+amplitude = 0.03
+frequency = 2.0
+[[relief]]
+name = "all"
+type = "sum"
+of = ["carved", "rough"]
+)";
+    const Keys above{"camera.position=[0,2.5,0]", "sampling.N=1"};
+    return {
+        {.name = "relief_ridged_warp", .keys = kTerrain + above, .relief = crests},
+        {.name = "relief_landform", .keys = kTerrain + above, .relief = landform},
+        {.name = "relief_in_space",
+         .keys = kHyperterrain + Keys{"camera.position=[0.3,2.5,0.1]", "sampling.N=1"},
+         .relief = crests},
+    };
+}
+
 }  // namespace
 
 std::vector<GoldenScene> golden_scenes() {
     std::vector<GoldenScene> all;
-    for (auto* group : {grounds, bodies, extremes, estimators}) {
+    for (auto* group : {grounds, bodies, extremes, estimators, reliefs}) {
         for (GoldenScene& golden : group()) all.push_back(std::move(golden));
     }
     return all;
@@ -171,6 +221,7 @@ std::vector<GoldenScene> golden_scenes() {
 
 scene::Scene scene_of(const GoldenScene& golden) {
     scene::Scene scene;
+    if (!golden.relief.empty()) scene = scene::read_scene(golden.relief, golden.name);
     for (const std::string& key : golden.keys) scene::apply_override(scene, key);
     scene::validate(scene, golden.name);
     return scene;

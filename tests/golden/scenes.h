@@ -18,6 +18,7 @@ struct GoldenScene {
     std::optional<film::Rect> crop{};  // half-open; nothing: the whole frame
     bool with_costs = false;           // steps and evaluations of each pixel as well
     integrate::Tracer tracer = integrate::Tracer::fast;
+    std::string relief{};  // [[relief]] terms, as in a scene file; empty: the sum of octaves of the keys
 };
 
 // Their names differ and name files.

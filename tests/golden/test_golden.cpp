@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "src/scene/enum_names.h"
+#include "src/scene/relief_keys.h"
 #include "tests/golden/check.h"
 #include "tests/golden/pins.h"
 #include "tests/golden/reference_picture.h"
@@ -50,6 +51,15 @@ TEST_CASE("every kind of image, surface, bound, camera path and estimator has a 
     CHECK(left_out<scene::BoundKind>([](const scene::Scene& s) { return s.surface.bound; }).empty());
     CHECK(left_out<scene::Interpolation>([](const scene::Scene& s) { return s.camera.interpolation; }).empty());
     CHECK(left_out<scene::EstimatorKind>([](const scene::Scene& s) { return s.sampling.estimator; }).empty());
+}
+
+TEST_CASE("every type of relief term has a golden scene") {
+    const auto types = scene::relief_types();
+    std::set<std::string_view> left(types.begin(), types.end());
+    for (const GoldenScene& golden : golden_scenes()) {
+        for (const noise::ReliefTerm& term : scene_of(golden).surface.relief) left.erase(types[term.node.index()]);
+    }
+    CHECK(left.empty());
 }
 
 TEST_CASE("golden scenes have names of their own and every phase of a render works in one of them") {
