@@ -202,7 +202,7 @@ of = ["carved", "rough"]
     const Keys above{"camera.position=[0,2.5,0]", "sampling.N=1"};
     return {
         {.name = "relief_ridged_warp", .keys = kTerrain + above, .relief = crests},
-        {.name = "relief_landform", .keys = kTerrain + above, .relief = landform},
+        {.name = "relief_landform", .keys = kTerrain + above, .crop = film::Rect{12, 8, 22, 13}, .relief = landform},
         {.name = "relief_in_space",
          .keys = kHyperterrain + Keys{"camera.position=[0.3,2.5,0.1]", "sampling.N=1"},
          .relief = crests},
