@@ -7,7 +7,7 @@
 //   bend_down(lo, hi)       at least the largest -g'' on [lo, hi], and at least 0
 //   range(lo, hi)           the least and the largest g on [lo, hi]
 //   steepest(lo, hi)        the largest |g'| on [lo, hi]
-// Bounds are those of exact arithmetic; rounding comes on top (src/trace/relief_lanes-inl.h).
+// Bounds are those of exact arithmetic; rounding comes on top (src/trace/enclosure_rules-inl.h).
 #if defined(STRATA_NOISE_RELIEF_CURVES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STRATA_NOISE_RELIEF_CURVES_INL_H_
 #undef STRATA_NOISE_RELIEF_CURVES_INL_H_
@@ -89,33 +89,6 @@ struct SoftClip {
     }
     std::pair<double, double> range(double lo, double hi) const { return {value(lo), value(hi)}; }
     double steepest(double lo, double hi) const { return std::max(std::abs(slope(lo)), std::abs(slope(hi))); }
-};
-
-// 1 / (1 + u)^2, u >= 0: 1 at the middle of a mass and nothing far away. g' = -2 / (1 + u)^3, g'' = 6 / (1 + u)^4.
-struct FallOff {
-    template <class V>
-    HWY_INLINE V inverse(V u) const {
-        return fixed<V>(1.0) / (fixed<V>(1.0) + greatest(u, fixed<V>(0.0)));
-    }
-    template <class V>
-    HWY_INLINE V value(V u) const {
-        return inverse(u) * inverse(u);
-    }
-    template <class V>
-    HWY_INLINE V slope(V u) const {
-        return fixed<V>(-2.0) * inverse(u) * inverse(u) * inverse(u);
-    }
-    template <class V>
-    HWY_INLINE V bend_up(V lo, V) const {
-        const V square = inverse(lo) * inverse(lo);
-        return fixed<V>(6.0) * square * square;
-    }
-    template <class V>
-    HWY_INLINE V bend_down(V, V) const {
-        return fixed<V>(0.0);
-    }
-    std::pair<double, double> range(double lo, double hi) const { return {value(hi), value(lo)}; }
-    double steepest(double lo, double) const { return std::abs(slope(lo)); }
 };
 
 // f + (d + sqrt(d^2 + s^2)) / 2 with d = v - f: what lies deeper than the floor f is filled up to it, softly over s.

@@ -1,5 +1,5 @@
 // The functions of numbers that reliefs are written with, for doubles; vectors of floats have the same ones (Lanes in
-// src/trace/relief_lanes-inl.h). Include after hwy/highway.h.
+// src/trace/enclosure-inl.h). Include after hwy/highway.h.
 #if defined(STRATA_NOISE_RELIEF_NUMBERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STRATA_NOISE_RELIEF_NUMBERS_INL_H_
 #undef STRATA_NOISE_RELIEF_NUMBERS_INL_H_

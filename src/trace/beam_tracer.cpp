@@ -11,38 +11,14 @@
 
 #include "src/trace/base-inl.h"
 #include "src/trace/beam_bound-inl.h"
+#include "src/trace/beam_packet-inl.h"
 #include "src/trace/lane_bits-inl.h"
-#include "src/trace/packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::trace::HWY_NAMESPACE {
 
 // As in fast_tracer.cpp, of the step and the beam's radius together. Speed only.
 constexpr float kBeamCellsAhead = 0.3f;
-
-// A beam ends once a step gains less than this many radii: narrower ones go further at less cost. Speed only.
-constexpr float kLeastGain = 0.5f;
-
-// A beam may end anywhere; one that grazes for so long leaves the rest to narrower ones.
-constexpr std::uint32_t kMostBeamSteps = 200;
-
-struct BeamPacket {
-    alignas(HWY_MAX_BYTES) double origin[3][kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) double direction[3][kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) double noise_shift[3][kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) double s[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) double radius0[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) double spread[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) float noise_radius[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) float speed[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) float hint[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) float active[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) double limit[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) std::uint32_t steps[kMaxLanes] = {};
-    std::size_t beam[kMaxLanes] = {};
-    double reach = 0.0;
-    std::size_t active_count = 0;
-};
 
 struct BeamCache {
     std::array<OctaveSample, noise::kMaxOctaves> sample;
@@ -125,27 +101,6 @@ HWY_INLINE FloatVec solve_beam(const TracePlan& plan, const BeamCache& cache, co
     return hn::Mul(root, span.ahead);
 }
 
-HWY_INLINE void take_beam(BeamPacket& packet, std::size_t lane, const Beam& beam, std::size_t index,
-                          const TracePlan& plan, bool is_planar) {
-    for (int a = 0; a < 3; ++a) {
-        packet.origin[a][lane] = beam.origin[a];
-        packet.direction[a][lane] = beam.direction[a];
-        packet.noise_shift[a][lane] = beam.noise_shift[a];
-        packet.reach = std::max(packet.reach, std::abs(beam.origin[a] + beam.noise_shift[a]) + beam.limit);
-    }
-    packet.s[lane] = beam.start;
-    packet.limit[lane] = beam.limit;
-    packet.radius0[lane] = beam.radius0 + beam.noise_radius;
-    packet.spread[lane] = beam.spread;
-    packet.noise_radius[lane] = static_cast<float>(beam.noise_radius);
-    packet.speed[lane] = domain_speed(is_planar, beam.direction);
-    packet.hint[lane] = beam.hint > 0.0f ? beam.hint : plan.first_hint;
-    packet.active[lane] = 1.0f;
-    packet.steps[lane] = 0;
-    packet.beam[lane] = index;
-    ++packet.active_count;
-}
-
 // All active lanes by their safe steps; those that gained too little, or passed their limit, report and become idle.
 HWY_INLINE void move_beams(BeamPacket& packet, const Wide& s, FloatVec safe, FloatVec least_gain, FloatVec slope,
                            std::span<BeamEnd> ends, TraceCounters& counters) {
@@ -215,7 +170,7 @@ HWY_NOINLINE void trace_beams_of(const Field& field, const TracePlan& plan, std:
             while (packet.active[lane] == 0.0f && next < beams.size()) {
                 const Beam& beam = beams[next];
                 if (beam.start < beam.limit) {
-                    take_beam(packet, lane, beam, next, plan, field.is_planar_noise());
+                    take_beam(packet, lane, beam, next, plan.first_hint, field.is_planar_noise());
                 } else {
                     ends[next] = {beam.start, beam.hint, 0.0f, true};
                 }

@@ -49,22 +49,6 @@ HWY_INLINE void settle_doubt(const Field& field, const TracePlan& plan, Packet& 
     at.error = hn::Load(d, error);
 }
 
-// The root within the last step, by its slope: f <= 0 here, f > 0 at s_outside.
-HWY_INLINE double refine(double s, double s_outside, float f, float slope) {
-    const double width = s - s_outside;
-    const double back = slope < 0.0f ? static_cast<double>(f) / static_cast<double>(slope) : 0.5 * width;
-    return s - std::min(std::max(back, 0.0), width);
-}
-
-HWY_INLINE void report(const Packet& packet, std::size_t lane, HitState state, float f, float slope, Hit& hit) {
-    hit.state = state;
-    hit.steps = packet.steps[lane];
-    hit.noise_evaluations = packet.evaluations[lane];
-    hit.on_bound = state == HitState::hit && packet.enters_bound[lane] && packet.steps[lane] == 1;
-    hit.s_outside = packet.s_outside[lane];
-    hit.s = state == HitState::hit ? refine(packet.s[lane], hit.s_outside, f, slope) : packet.s[lane];
-}
-
 // What a step found out of every lane.
 struct Outcome {
     FloatVec f, slope;

@@ -10,67 +10,28 @@
 #include <hwy/highway.h>
 
 #define STRATA_RELIEF_FORMULAS
+#include "src/trace/beam_packet-inl.h"
 #include "src/trace/lane_bits-inl.h"
 #include "src/trace/lower_bound-inl.h"
-#include "src/trace/packet-inl.h"
 #include "src/trace/relief_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::trace::HWY_NAMESPACE {
 
-// As in relief_tracer.cpp; a beam ends once its step gains less than kLeastReliefGain radii. Speed only.
-constexpr float kBeamGrow = 1.5f, kBeamShrink = 0.25f, kLeastReliefGain = 0.5f;
-constexpr std::uint32_t kMostReliefBeamSteps = 200;
-
-struct ReliefBeams {
-    alignas(HWY_MAX_BYTES) double origin[3][kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) double direction[3][kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) double noise_shift[3][kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) double s[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) double limit[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) double radius0[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) double spread[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) float noise_radius[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) float speed[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) float hint[kMaxLanes] = {};
-    alignas(HWY_MAX_BYTES) float active[kMaxLanes] = {};
-    std::uint32_t steps[kMaxLanes] = {};
-    std::size_t beam[kMaxLanes] = {};
-    double reach = 0.0;
-    std::size_t active_count = 0;
-};
-
-HWY_INLINE void take(ReliefBeams& packet, std::size_t lane, const Beam& beam, std::size_t index, const ReliefPlan& plan,
-                     bool is_planar) {
-    for (int a = 0; a < 3; ++a) {
-        packet.origin[a][lane] = beam.origin[a];
-        packet.direction[a][lane] = beam.direction[a];
-        packet.noise_shift[a][lane] = beam.noise_shift[a];
-        packet.reach = std::max(packet.reach, std::abs(beam.origin[a] + beam.noise_shift[a]) + beam.limit);
-    }
-    packet.s[lane] = beam.start;
-    packet.limit[lane] = beam.limit;
-    packet.radius0[lane] = beam.radius0;
-    packet.spread[lane] = beam.spread;
-    packet.noise_radius[lane] = static_cast<float>(beam.noise_radius * kRoundUp);
-    packet.speed[lane] = domain_speed(is_planar, beam.direction);
-    packet.hint[lane] = beam.hint > 0.0f ? beam.hint : plan.first_hint;
-    packet.active[lane] = 1.0f;
-    packet.steps[lane] = 0;
-    packet.beam[lane] = index;
-    ++packet.active_count;
-}
+// As in relief_tracer.cpp. Speed only.
+constexpr float kBeamGrow = 1.5f, kBeamShrink = 0.25f;
 
 struct BeamStep {
     FloatVec safe, slope, radius;
 };
 
 // f on the axis point x, and the step over which the whole bundle stays outside. With D = t d + e, e across d and
-// |e| <= radius + spread t, and n the noise's own displacement, |n| <= noise_radius:
-//   f >= base - r - slack(|D + n|) + (grad base - grad r) . D - grad r . n,   |D + n| <= (speed + spread) t + all
-//   radii.
+// |e| <= radius + spread t, and n the noise's own displacement, |n| <= noise_radius, which `radius` has in it:
+//
+//   f >= base - r - slack(|D + n|) + (grad base - grad r) . D - grad r . n,
+//   |D + n| <= radius + (speed + spread) t.
 template <bool kPlanar>
-HWY_INLINE BeamStep step_beam(const Field& field, const ReliefPlan& plan, const ReliefBeams& packet,
+HWY_INLINE BeamStep step_beam(const Field& field, const ReliefPlan& plan, const BeamPacket& packet,
                               TraceCounters& counters) {
     const FloatTag d;
     const FloatVec up = set(kRoundUp);
@@ -79,9 +40,8 @@ HWY_INLINE BeamStep step_beam(const Field& field, const ReliefPlan& plan, const 
     const WidePoint x = point_at(load_point(packet.origin), direction, s);
     WidePoint noise_x = x;
     if (field.drifts()) noise_x = add(x, load_point(packet.noise_shift));
-    const FloatVec own = hn::Mul(to_float(mul_add(spread_wide, s, load_wide(packet.radius0))), up);
-    const FloatVec spread = hn::Mul(to_float(spread_wide), up);
-    const FloatVec drift = hn::Load(d, packet.noise_radius), radius = hn::Add(own, drift);
+    const FloatVec radius = hn::Mul(to_float(mul_add(spread_wide, s, load_wide(packet.radius0))), up);
+    const FloatVec spread = hn::Mul(to_float(spread_wide), up), drift = hn::Mul(hn::Load(d, packet.noise_radius), up);
     const FloatVec hint = hn::Load(d, packet.hint), pace = hn::Mul(hn::Add(hn::Load(d, packet.speed), spread), up);
     FloatVec evaluations = hn::Zero(d);
     auto broken = hn::Lt(evaluations, evaluations);
@@ -102,7 +62,7 @@ HWY_INLINE BeamStep step_beam(const Field& field, const ReliefPlan& plan, const 
     const FloatVec pull = hn::MulAdd(length(across), up, off);
     const FloatVec error = hn::Mul(set(0x1p-22f), hn::Add(hn::Abs(base.value), hn::Abs(r.value)));
     FloatVec start = hn::Sub(hn::Sub(base.value, r.value), hn::Add(error, r.up.at(radius)));
-    start = hn::Sub(start, hn::MulAdd(pull, own, hn::Mul(hn::Mul(steep, up), drift)));
+    start = hn::Sub(start, hn::MulAdd(pull, radius, hn::Mul(hn::Mul(steep, up), drift)));
     const FloatVec twice = hn::Mul(set(2.0f), hn::Mul(r.up.e2, radius));
     const FloatVec rate =
         hn::Sub(hn::Sub(along, off), hn::MulAdd(pull, spread, hn::Mul(pace, hn::Add(r.up.e1, twice))));
@@ -111,14 +71,14 @@ HWY_INLINE BeamStep step_beam(const Field& field, const ReliefPlan& plan, const 
 }
 
 // Moves a lane, or ends it. Where the ball left out too much to tell, the next one is smaller.
-HWY_INLINE void move_beam(ReliefBeams& packet, std::size_t lane, float safe, float slope, float radius,
+HWY_INLINE void move_beam(BeamPacket& packet, std::size_t lane, float safe, float slope, float radius,
                           std::span<BeamEnd> ends) {
-    const float least = kLeastReliefGain * radius, hint = packet.hint[lane];
+    const float least = kLeastGain * radius, hint = packet.hint[lane];
     packet.s[lane] += safe;
     const bool misses = safe > 0.0f && packet.s[lane] >= packet.limit[lane];
     const bool gains = safe > 0.0f && safe >= least;
     const bool may_shrink = !gains && hint > 2.0f * std::max(least, 1e-30f);
-    const bool ends_here = misses || ++packet.steps[lane] >= kMostReliefBeamSteps || !(gains || may_shrink);
+    const bool ends_here = misses || ++packet.steps[lane] >= kMostBeamSteps || !(gains || may_shrink);
     packet.hint[lane] =
         gains ? std::min(kBeamGrow * safe, 1e15f) : std::max(kBeamShrink * hint, std::max(least, 1e-30f));
     if (!ends_here) return;
@@ -132,14 +92,14 @@ HWY_NOINLINE void trace_relief_beams_of(const Field& field, const ReliefPlan& pl
                                         std::span<BeamEnd> ends, TraceCounters& counters) {
     const FloatTag d;
     const std::size_t lanes = hn::Lanes(d);
-    ReliefBeams packet;
+    BeamPacket packet;
     alignas(HWY_MAX_BYTES) float safe[kMaxLanes], slope[kMaxLanes], radius[kMaxLanes];
     for (std::size_t next = 0;;) {
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             while (packet.active[lane] == 0.0f && next < beams.size()) {
                 const Beam& beam = beams[next];
                 if (beam.start < beam.limit) {
-                    take(packet, lane, beam, next, plan, kPlanar);
+                    take_beam(packet, lane, beam, next, plan.first_hint, kPlanar);
                 } else {
                     ends[next] = {beam.start, beam.hint, 0.0f, true};
                 }

@@ -101,20 +101,13 @@ HWY_INLINE ReliefStep relief_step(const Field& field, const ReliefPlan& plan, Pa
     return step;
 }
 
-HWY_INLINE void report_relief(Packet& packet, std::size_t lane, HitState state, float f, float slope,
-                              std::span<Hit> hits) {
+HWY_INLINE void end_relief_ray(Packet& packet, std::size_t lane, HitState state, float f, float slope,
+                               std::span<Hit> hits) {
     Hit& hit = hits[packet.ray[lane]];
-    hit.state = state;
-    hit.steps = packet.steps[lane];
-    hit.noise_evaluations = packet.evaluations[lane];
-    hit.on_bound = state == HitState::hit && packet.enters_bound[lane] && packet.s[lane] == packet.s_outside[lane];
-    hit.s_outside = packet.s_outside[lane];
-    hit.s = packet.s[lane];
-    const double width = hit.s - hit.s_outside;
-    if (state == HitState::hit) {
-        const double back = slope < 0.0f ? static_cast<double>(f) / static_cast<double>(slope) : 0.5 * width;
-        hit.s -= std::min(std::max(back, 0.0), width);
-    }
+    report(packet, lane, state, f, slope, hit);
+    // A ball that was too large is a step too, and leads nowhere.
+    const bool has_moved = packet.s[lane] != packet.s_outside[lane];
+    hit.on_bound = state == HitState::hit && packet.enters_bound[lane] && !has_moved;
     drop_lane(packet, lane);
 }
 
@@ -154,7 +147,7 @@ HWY_INLINE void step_relief(const Field& field, const ReliefPlan& plan, Packet& 
         const HitState state = hits_of.contains(lane)     ? HitState::hit
                                : misses_of.contains(lane) ? HitState::miss
                                                           : HitState::unresolved;
-        report_relief(packet, lane, state, f[lane], slope[lane], hits);
+        end_relief_ray(packet, lane, state, f[lane], slope[lane], hits);
     }
 }
 

@@ -128,7 +128,6 @@ TEST_CASE("a curve's value, slope and bends stay within its bounds on any interv
     };
     for (const double roundness : {0.01, 0.05, 0.3, 0.9}) check(RidgeCurve{roundness}, -1.0, 1.0);
     check(SoftClip{}, 0.0, 4.0);
-    check(FallOff{}, 0.0, 20.0);
     check(FillCurve{0.2, 0.1}, -2.0, 2.0);
     check(FillCurve{-1.0, 0.01}, -2.0, 2.0);
 }

@@ -86,16 +86,18 @@ inline scene::Surface random_composed_surface(Random& random) {
 // f of a composed surface along a ray, with a distance over which it keeps its sign.
 class ComposedField {
   public:
-    explicit ComposedField(const scene::Surface& surface)
-        : shape_(oracle::shape_of(surface)),
+    explicit ComposedField(const scene::Surface& surface, double time = 0.0)
+        : drifted_{time * surface.drift.x, time * surface.drift.y, time * surface.drift.z},
+          shape_(oracle::shape_of(surface)),
           bare_(bare(surface)),
           relief_(surface.relief, surface.kind == scene::SurfaceKind::terrain),
           base_slope_(surface.kind == scene::SurfaceKind::isosurface ? 0.0 : 1.0),
           slope_(relief_.slope() + base_slope_) {}
 
     oracle::Probe probe(const oracle::Vec& p) const {
-        const double base = bare_.base(p), f = base - relief_.value(p);
-        const oracle::ReliefOracle::Rough rough = relief_.rough(p);
+        const oracle::Vec at{p[0] - drifted_[0], p[1] - drifted_[1], p[2] - drifted_[2]};
+        const double base = bare_.base(p), f = base - relief_.value(at);
+        const oracle::ReliefOracle::Rough rough = relief_.rough(at);
         const double outside = base - rough.high, inside = rough.low - base;
         return {f, std::max(std::abs(f) / slope_, std::max(outside, inside) / (base_slope_ + rough.slope))};
     }
@@ -108,18 +110,21 @@ class ComposedField {
         return oracle::FieldOracle(shape);
     }
 
+    oracle::Vec drifted_;
     oracle::Shape shape_;
     oracle::FieldOracle bare_;
     oracle::ReliefOracle relief_;
     double base_slope_, slope_;
 };
 
+// times: of each ray.
 inline Judgement judge_composed(const scene::Surface& surface, std::span<const trace::Ray> rays,
-                                std::span<const trace::Hit> hits) {
-    const ComposedField field(surface);
+                                std::span<const trace::Hit> hits, std::span<const double> times) {
+    ComposedField field(surface);
     Judgement total;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const trace::Ray& ray = rays[i];
+        if (times[i] != 0.0) field = ComposedField(surface, times[i]);
         const oracle::Vec p{ray.origin.x, ray.origin.y, ray.origin.z};
         const oracle::Vec d{ray.direction.x, ray.direction.y, ray.direction.z};
         const auto delta = [&](double t) { return ray.delta0 + ray.delta_slope * t; };

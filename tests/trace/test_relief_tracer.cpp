@@ -17,7 +17,7 @@ void check_rays(const scene::Surface& surface, std::size_t count, Random& random
     std::vector<trace::Hit> hits(rays.size());
     trace::TraceCounters counters;
     tracer.trace(rays, hits, counters);
-    const Judgement found = judge_composed(surface, rays, hits);
+    const Judgement found = judge_composed(surface, rays, hits, families.times());
     MESSAGE("kind " << static_cast<int>(surface.kind) << ", " << surface.relief.size() << " terms, " << found.rays
                     << " rays, " << found.hits << " hits, thickest stretch passed over " << found.thickest
                     << " delta (bound 1), undecided " << found.undecided << ", evaluations a ray "
@@ -60,6 +60,17 @@ TEST_CASE("no ray passes over random compositions of terms, on every kind of sur
     Random random(12);
     std::size_t rays = 0;
     for (int i = 0; i < 12; ++i) check_rays(random_composed_surface(random), 400, random, rays);
+    MESSAGE("rays in all: " << rays);
+}
+
+TEST_CASE("no ray passes over a composed relief whose noise drifts") {
+    Random random(16);
+    std::size_t rays = 0;
+    for (int i = 0; i < 8; ++i) {
+        scene::Surface surface = random_composed_surface(random);
+        surface.drift = log_uniform(random, 1e-3, 10.0) * unit_vector(random);
+        check_rays(surface, 200, random, rays);
+    }
     MESSAGE("rays in all: " << rays);
 }
 
@@ -111,6 +122,7 @@ TEST_CASE("within a beam's free stretch no point is inside a composed relief") {
             surface = {};
             surface.relief = random_landform(random);
         }
+        if (i % 3 == 0) surface.drift = {0.3, 0.1, -0.2};
         const trace::Field field(surface);
         const trace::FastTracer rays(field);
         const trace::BeamTracer beams(field);
@@ -119,10 +131,13 @@ TEST_CASE("within a beam's free stretch no point is inside a composed relief") {
             const double radius0 = random() % 2 == 0 ? 0.0 : log_uniform(random, 1e-4, 0.1);
             const trace::Interval inside = field.clip(ray.origin, ray.direction, ray.limit);
             if (inside.begin >= inside.end) continue;
+            const double noise_radius = field.drifts() ? log_uniform(random, 1e-4, 0.1) : 0.0;
             const trace::Beam beam{.origin = ray.origin,
                                    .direction = ray.direction,
+                                   .noise_shift = ray.noise_shift,
                                    .radius0 = radius0,
                                    .spread = log_uniform(random, 1e-4, 0.05),
+                                   .noise_radius = noise_radius,
                                    .start = inside.begin,
                                    .limit = inside.end};
             trace::BeamEnd end;
@@ -136,7 +151,7 @@ TEST_CASE("within a beam's free stretch no point is inside a composed relief") {
                 const double r = (beam.radius0 + beam.spread * s) * (j % 2 == 0 ? 1.0 : uniform(random, 0.0, 1.0));
                 const glm::dvec3 x =
                     beam.origin + s * beam.direction + r * (std::cos(angle) * side + std::sin(angle) * other);
-                REQUIRE(field.value(x) > 0.0);
+                REQUIRE(field.value(x, ray.noise_shift + noise_radius * unit_vector(random)) > 0.0);
                 ++points;
             }
         }
