@@ -160,6 +160,21 @@ std::vector<GoldenScene> estimators() {
     };
 }
 
+// The Earth's air: the sun and sky that it makes, the mountains that are not there, and how it hides what is far.
+std::vector<GoldenScene> daylights() {
+    const Keys daylight = kTerrain + Keys{"sky.model=daylight", "scale.metres=300", "sky.visibility_km=40"};
+    return {
+        {.name = "daylight", .keys = daylight + kStratified},
+        {.name = "daylight_shadow_from_afar",
+         .keys = daylight +
+                 Keys{"sun.direction=[-0.8,0.05,0.35]", "sun.shadow_height=0.2", "sun.shadow_relief=0.6",
+                      "sky.gain=1.5", "surface.drift=[3,0,2]"} +
+                 kShutter},
+        {.name = "daylight_no_shadows",
+         .keys = daylight + kNoShadows + Keys{"surface.kind=hyperterrain", "surface.rotation_deg=[10,40,-15]"}},
+    };
+}
+
 // Composed reliefs: every type of term, over the plane and in space.
 std::vector<GoldenScene> reliefs() {
     const std::string crests = R"([[relief]]
@@ -213,7 +228,7 @@ of = ["carved", "rough"]
 
 std::vector<GoldenScene> golden_scenes() {
     std::vector<GoldenScene> all;
-    for (auto* group : {grounds, bodies, extremes, estimators, reliefs}) {
+    for (auto* group : {grounds, bodies, extremes, estimators, daylights, reliefs}) {
         for (GoldenScene& golden : group()) all.push_back(std::move(golden));
     }
     return all;
