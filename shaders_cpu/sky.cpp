@@ -34,10 +34,4 @@ glm::vec3 ambient_light(const scene::Sky& sky, double up_dot_normal) {
     return mix_sky(sky, kMeanHorizonWeight) * static_cast<float>(seen_sky + kGroundReflectance * (1.0 - seen_sky));
 }
 
-glm::vec3 apply_haze(const scene::Sky& sky, const glm::vec3& radiance, double distance, const glm::dvec3& direction) {
-    if (sky.haze_distance <= 0.0) return radiance;
-    const auto clear = static_cast<float>(std::exp(-std::max(distance, 0.0) / sky.haze_distance));
-    return radiance * clear + sky_radiance(sky, direction) * (1.0f - clear);
-}
-
 }  // namespace strata::shaders

@@ -1,13 +1,11 @@
-// Sky and haze: what a ray sees that meets nothing, and what the air adds to one that does.
+// The gradient sky: what a ray sees that meets nothing, and the light that such a sky gives.
 //
-//   zenith         radiance straight up, linear RGB                               0.13 0.28 0.62
-//   horizon        radiance level and below, linear RGB                           0.62 0.74 0.88
-//   haze_distance  surface units over which 1 - 1/e of the light is lost to haze    0: no haze
+//   zenith    radiance straight up, linear RGB         0.13 0.28 0.62
+//   horizon   radiance level and below, linear RGB   0.62 0.74 0.88
 //
 //   [sky]
 //   zenith = [0.13, 0.28, 0.62]
 //   horizon = [0.62, 0.74, 0.88]
-//   haze_distance = 60.0
 //
 // The gradient is a chosen one, not a measured sky: horizon has the weight cos^16 of the elevation, which is flat at
 // the horizon and half gone 17 degrees above it, as a clear sky looks. "Up" is +y of the given direction: the renderer
@@ -31,10 +29,5 @@ glm::vec3 sky_radiance(const scene::Sky& sky, const glm::dvec3& direction);
 // "up": all sky at 1, all ground at -1, in between the mix that two even hemispheres would give. For level ground (1)
 // it is the cosine-weighted mean of sky_radiance over the sky. The ground gives back a fifth of that.
 glm::vec3 ambient_light(const scene::Sky& sky, double up_dot_normal);
-
-// `radiance` seen through `distance` surface units of haze, which takes on the sky's colour in that direction - horizon
-// for level rays - so that a surface far away melts into the sky beside it. Beer-Lambert extinction. An infinite
-// distance gives the sky.
-glm::vec3 apply_haze(const scene::Sky& sky, const glm::vec3& radiance, double distance, const glm::dvec3& direction);
 
 }  // namespace strata::shaders

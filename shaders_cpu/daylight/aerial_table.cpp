@@ -88,7 +88,7 @@ void AerialTable::add_line(const AirLight& light, const SkyFrame& frame, const A
     }
 }
 
-AerialPerspective AerialTable::at(const Medium& medium, const SkyDirection& direction, double distance) const {
+AerialPerspective AerialTable::at(const AirModel& medium, const SkyDirection& direction, double distance) const {
     const Cell up = up_cell(direction.up, horizon_);
     const Cell azimuth = cell_of(0.5 * (1.0 + direction.azimuth), kAzimuths);
     const Cell far = distance_cell(distance);

@@ -27,7 +27,7 @@ class AerialTable {
 
     AerialTable(const AirLight& light, const SkyFrame& frame);
 
-    AerialPerspective at(const Medium& medium, const SkyDirection& direction, double distance) const;
+    AerialPerspective at(const AirModel& medium, const SkyDirection& direction, double distance) const;
 
   private:
     struct Node {

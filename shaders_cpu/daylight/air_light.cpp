@@ -14,7 +14,7 @@ AirRadiance AirLight::of_step(const AirPath& path, const AirStep& step, double s
     const double up = (path.start_radius() * sun_up + step.distance * cosine) / step.radius;
     const Sunlight sun = sun_.at(step.sun_cell, step.horizon, up);
     const Bands scattered = scattered_.mean_radiance(step.diffuse_cell, up);
-    return {step.air * (sun.diffuse * Medium::rayleigh_phase(cosine) + scattered) +
+    return {step.air * (sun.diffuse * AirModel::rayleigh_phase(cosine) + scattered) +
                 step.even_haze * (sun.diffuse * kEven + scattered),
             step.haze * sun.full};
 }

@@ -42,10 +42,10 @@ class AirLight {
         return light.even + light.lobe * medium_.haze_lobe(cosine);
     }
 
-    const Medium& medium() const { return medium_; }
+    const AirModel& medium() const { return medium_; }
 
   private:
-    Medium medium_;
+    AirModel medium_;
     SunTable sun_;
     ScatteredLight scattered_;
 };

@@ -64,7 +64,7 @@ double distance_to_end(double height, double up) {
     return out < kInfinity ? std::max(0.0, out) : 0.0;
 }
 
-Densities columns_to_top(const Medium& medium, double height, double up) {
+Densities columns_to_top(const AirModel& medium, double height, double up) {
     constexpr int kSteps = 28;
     constexpr double kGauss = 0.57735026918962576;  // 1 / sqrt(3): two points a step
     const double r = kEarthRadius + height;
@@ -81,21 +81,21 @@ Densities columns_to_top(const Medium& medium, double height, double up) {
     return sum;
 }
 
-AirPath::AirPath(const Medium& medium, double height, double up, double distance, int steps)
+AirPath::AirPath(const AirModel& medium, double height, double up, double distance, int steps)
     : start_radius_(kEarthRadius + height), length_(std::clamp(distance, 0.0, distance_to_end(height, up))) {
     if (length_ <= 0.0) return;
     steps_.reserve(steps);
     each_step(-start_radius_ * up, length_, steps, [&](double from, double to) { add_step(medium, up, from, to); });
 }
 
-AirPath::AirPath(const Medium& medium, double height, double up, std::span<const double> distances)
+AirPath::AirPath(const AirModel& medium, double height, double up, std::span<const double> distances)
     : start_radius_(kEarthRadius + height), length_(std::min(distances.back(), distance_to_end(height, up))) {
     steps_.reserve(distances.size());
     for (std::size_t k = 1; k < distances.size(); ++k)
         add_step(medium, up, std::min(distances[k - 1], length_), std::min(distances[k], length_));
 }
 
-void AirPath::add_step(const Medium& medium, double up, double from, double to) {
+void AirPath::add_step(const AirModel& medium, double up, double from, double to) {
     const double length = to - from;
     const double distance = 0.5 * (from + to);
     const double radius = radius_at(start_radius_, up, distance);

@@ -23,7 +23,7 @@ double distance_to_ground(double height, double up);
 double distance_to_end(double height, double up);
 
 // Columns (metres of density 1) from the point to the end of the air, along a line that meets no ground.
-Densities columns_to_top(const Medium& medium, double height, double up);
+Densities columns_to_top(const AirModel& medium, double height, double up);
 
 // What scatters, one step of the line's.
 struct AirStep {
@@ -40,10 +40,10 @@ struct AirStep {
 class AirPath {
   public:
     // `distance` may be infinite. Steps are short where the line is lowest.
-    AirPath(const Medium& medium, double height, double up, double distance, int steps);
+    AirPath(const AirModel& medium, double height, double up, double distance, int steps);
 
     // Steps from one of the ascending `distances` to the next; of length 0 beyond the end of the air.
-    AirPath(const Medium& medium, double height, double up, std::span<const double> distances);
+    AirPath(const AirModel& medium, double height, double up, std::span<const double> distances);
 
     std::span<const AirStep> steps() const { return steps_; }
     double start_radius() const { return start_radius_; }
@@ -52,7 +52,7 @@ class AirPath {
     const Densities& columns() const { return columns_; }
 
   private:
-    void add_step(const Medium& medium, double up, double from, double to);
+    void add_step(const AirModel& medium, double up, double from, double to);
 
     double start_radius_, length_;
     std::vector<AirStep> steps_;

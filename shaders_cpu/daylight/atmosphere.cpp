@@ -60,7 +60,7 @@ void validate(const Atmosphere& a) {
     require(a.ground_albedo >= 0 && a.ground_albedo <= 1, "ground_albedo", a.ground_albedo, "[0, 1]");
 }
 
-Medium::Medium(const Atmosphere& a)
+AirModel::AirModel(const Atmosphere& a)
     : haze_height_(a.haze_height),
       forward_(a.haze_forward),
       straight_(kStraight * a.haze_forward),
@@ -88,22 +88,22 @@ Medium::Medium(const Atmosphere& a)
     diffuse_.haze = full_.haze - haze_scattering_ * straight_;
 }
 
-Densities Medium::densities(double height) const {
+Densities AirModel::densities(double height) const {
     const double h = std::max(height, 0.0);
     return {air_density(h), std::exp(-h / haze_height_),
             std::max(0.0, 1.0 - std::fabs(h - kOzoneMiddle) / kOzoneReach)};
 }
 
 // Of unpolarised light, with the depolarisation of air (0.0279; Chandrasekhar's gamma 0.0141) left out: 1.4 % at most.
-double Medium::rayleigh_phase(double cosine) { return 3.0 / (16.0 * std::numbers::pi) * (1.0 + cosine * cosine); }
+double AirModel::rayleigh_phase(double cosine) { return 3.0 / (16.0 * std::numbers::pi) * (1.0 + cosine * cosine); }
 
 // Henyey and Greenstein (1941).
-double Medium::haze_phase(double cosine) const {
+double AirModel::haze_phase(double cosine) const {
     const double base = 1.0 + forward_ * forward_ - 2.0 * forward_ * cosine;
     return (1.0 - forward_ * forward_) / (4.0 * std::numbers::pi * base * std::sqrt(base));
 }
 
-double Medium::haze_lobe(double cosine) const {
+double AirModel::haze_lobe(double cosine) const {
     return haze_phase(cosine) - (1.0 - straight_) / (4.0 * std::numbers::pi);
 }
 

@@ -55,9 +55,9 @@ struct Coefficients {
 // the rest everywhere evenly: less extinction, no lobe. The haze that the sun is seen through, and its light scattered
 // once into the eye, keep the true lobe, so that the bright ring about the sun is right (Nakajima and Tanaka 1988,
 // their "TMS").
-class Medium {
+class AirModel {
   public:
-    explicit Medium(const Atmosphere& atmosphere);
+    explicit AirModel(const Atmosphere& atmosphere);
 
     Densities densities(double height) const;
 

@@ -24,7 +24,7 @@ SkyFrame checked_frame(const glm::dvec3& sun, double height) {
     return {sun / length, std::max(height, 0.0)};
 }
 
-std::vector<glm::vec3> tabulate_sun(const Medium& medium, double sun_up) {
+std::vector<glm::vec3> tabulate_sun(const AirModel& medium, double sun_up) {
     std::vector<glm::vec3> table(kSunHeights);
     for (int i = 0; i < kSunHeights; ++i) {
         const double x = static_cast<double>(i) / (kSunHeights - 1);

@@ -58,7 +58,7 @@ glm::vec4 at(const std::vector<glm::vec4>& row, double sun_up) {
 // way.
 class ScatteredLight::Gatherer {
   public:
-    Gatherer(const Medium& medium, double height, double up)
+    Gatherer(const AirModel& medium, double height, double up)
         : medium_(medium),
           up_(up),
           path_(medium, height, up, distance_to_ground(height, up), kSteps),
@@ -67,7 +67,7 @@ class ScatteredLight::Gatherer {
     // Sunlight: mean over the azimuth of the radiance that comes from the cone.
     glm::vec4 sunlight(const SunTable& sun, double sun_up) const {
         return mean_over_azimuth(sun_up, [&](double cosine) {
-            const double rayleigh = Medium::rayleigh_phase(cosine);
+            const double rayleigh = AirModel::rayleigh_phase(cosine);
             constexpr double kEven = 1.0 / (4.0 * std::numbers::pi);
             Bands light(0.0);
             for (const AirStep& step : path_.steps())
@@ -128,7 +128,7 @@ class ScatteredLight::Gatherer {
         return sum / static_cast<float>(kAzimuths);
     }
 
-    const Medium& medium_;
+    const AirModel& medium_;
     double up_;
     AirPath path_;
     bool meets_ground_;
@@ -140,7 +140,7 @@ ScatteredLight::Field ScatteredLight::no_light() {
     return {std::vector<Row>(kHeights, dark), dark};
 }
 
-ScatteredLight::ScatteredLight(const Medium& medium, const SunTable& sun, int orders, Rest rest) : sum_(no_light()) {
+ScatteredLight::ScatteredLight(const AirModel& medium, const SunTable& sun, int orders, Rest rest) : sum_(no_light()) {
     Field before = no_light();
     for (int order = 1; order <= orders; ++order) {
         Field now = no_light();

@@ -16,7 +16,7 @@ class ScatteredLight {
   public:
     // What follows the last of `orders` scatterings is added as a geometric series, or left out.
     enum class Rest { kSeries, kNone };
-    ScatteredLight(const Medium& medium, const SunTable& sun, int orders, Rest rest);
+    ScatteredLight(const AirModel& medium, const SunTable& sun, int orders, Rest rest);
 
     static Cell height_cell(double height);
 

@@ -43,7 +43,7 @@ SkyTable::SkyTable(const AirLight& light, const SkyFrame& frame) : horizon_(hori
     add_rows(kUpsBelow, -1.0 - horizon_, true);
 }
 
-glm::dvec3 SkyTable::radiance(const Medium& medium, const SkyDirection& direction) const {
+glm::dvec3 SkyTable::radiance(const AirModel& medium, const SkyDirection& direction) const {
     const bool above = direction.up >= horizon_;
     const double reach = above ? 1.0 - horizon_ : -1.0 - horizon_;
     const Cell up = cell_of(std::sqrt((direction.up - horizon_) / reach), above ? kUpsAbove : kUpsBelow);

@@ -16,7 +16,7 @@ class SkyTable {
     SkyTable(const AirLight& light, const SkyFrame& frame);
 
     // Linear Rec.709, cd/m^2, without the sun's disc. Never negative.
-    glm::dvec3 radiance(const Medium& medium, const SkyDirection& direction) const;
+    glm::dvec3 radiance(const AirModel& medium, const SkyDirection& direction) const;
 
     double horizon() const { return horizon_; }
 

@@ -24,14 +24,14 @@ double visible_share(double a) {
     return 0.5 + (std::asin(a) + a * std::sqrt(1.0 - a * a)) / std::numbers::pi;
 }
 
-Sunlight through_air(const Medium& medium, double height, double up) {
+Sunlight through_air(const AirModel& medium, double height, double up) {
     const Densities columns = columns_to_top(medium, height, up);
     return {glm::exp(-medium.full().depth(columns)), glm::exp(-medium.diffuse().depth(columns))};
 }
 
 }  // namespace
 
-Sunlight sunlight(const Medium& medium, double height, double sun_up) {
+Sunlight sunlight(const AirModel& medium, double height, double sun_up) {
     constexpr double kSteepAir = 6.0;  // radii above the horizon below which air dims a disc unevenly
     constexpr int kStrips = 4;
     const double zenith_angle = std::acos(std::clamp(sun_up, -1.0, 1.0));
@@ -55,7 +55,7 @@ Sunlight sunlight(const Medium& medium, double height, double sun_up) {
     return {share / chords * sum.full, share / chords * sum.diffuse};
 }
 
-SunTable::SunTable(const Medium& medium) : nodes_(kHeights * kSuns) {
+SunTable::SunTable(const AirModel& medium) : nodes_(kHeights * kSuns) {
     for (int i = 0; i < kHeights; ++i) {
         const double height = height_of(i);
         const double floor = horizon_up(height) - kBelowHorizon;

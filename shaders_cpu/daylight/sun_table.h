@@ -8,19 +8,19 @@
 namespace strata::shaders {
 
 // Irradiance of a plane that faces the sun, relative to outside the atmosphere: by light that met nothing, and by that
-// together with what haze sent on almost straight (see Medium).
+// together with what haze sent on almost straight (see AirModel).
 struct Sunlight {
     Bands full, diffuse;
 };
 
 // At `height`, with the middle of the sun at `sun_up`, the cosine to the vertical. The disc sets gradually: what shows
 // of it above the sphere's horizon shines through the air as its centroid does.
-Sunlight sunlight(const Medium& medium, double height, double sun_up);
+Sunlight sunlight(const AirModel& medium, double height, double sun_up);
 
 // The same, tabulated.
 class SunTable {
   public:
-    explicit SunTable(const Medium& medium);
+    explicit SunTable(const AirModel& medium);
 
     static Cell height_cell(double height);
 

@@ -1,32 +1,20 @@
 #include "src/integrate/medium.h"
 
-#include "shaders_cpu/sky.h"
 #include "src/integrate/phase_meter.h"
 
 namespace strata::integrate {
 
-namespace {
-
-void apply_air(const DaylightScene& daylight, SurfaceChunk& chunk, Counters& counters) {
-    PhaseMeter meter(counters);
-    for (std::size_t i = 0; i < chunk.sample.size(); ++i) {
-        glm::vec3& radiance = chunk.radiance[chunk.sample[i]];
-        radiance = daylight.through_air(radiance, chunk.view_of(chunk.sample[i]), chunk.surface_hits[i].s);
-    }
-    meter.book(Phase::shading);
-}
-
-}  // namespace
-
 void apply_medium(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counters) {
-    if (setup.daylight) return apply_air(*setup.daylight, chunk, counters);
-    const scene::Sky& sky = setup.scene.sky;
-    if (sky.haze_distance <= 0.0) return;
+    if (setup.media.empty()) return;
     PhaseMeter meter(counters);
-    for (std::size_t i = 0; i < chunk.sample.size(); ++i) {
-        glm::vec3& radiance = chunk.radiance[chunk.sample[i]];
-        radiance = shaders::apply_haze(sky, radiance, chunk.surface_hits[i].s, chunk.view_of(chunk.sample[i]));
-    }
+    const auto look_through = [&](const auto& medium) {
+        for (std::size_t i = 0; i < chunk.sample.size(); ++i) {
+            const std::uint32_t sample = chunk.sample[i];
+            glm::vec3& radiance = chunk.radiance[sample];
+            radiance = medium.along(chunk.view_of(sample), chunk.surface_hits[i].s).over(radiance);
+        }
+    };
+    for (const shaders::Medium& medium : setup.media) std::visit(look_through, medium);
     meter.book(Phase::shading);
 }
 

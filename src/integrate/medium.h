@@ -1,4 +1,4 @@
-// Stage of a surface's picture: what the air between the eye and what was hit takes and adds.
+// Stage of a surface's picture: what the media between the eye and what was hit take and add.
 #pragma once
 
 #include "src/integrate/image_function.h"
@@ -7,7 +7,7 @@
 
 namespace strata::integrate {
 
-// Haze, if there is any; chunk.radiance of the hits comes out as the eye sees it.
+// chunk.radiance of the hits comes out as the eye sees it.
 void apply_medium(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counters);
 
 }  // namespace strata::integrate

@@ -12,7 +12,6 @@ struct Instant {
     trace::Ray world;        // some ray of the camera
     trace::Camera eye;       // in the surface's axes
     trace::Ray ray;          // in the surface's coordinates, all but its direction and tolerance
-    glm::dvec3 sun;          // in the surface's axes
 };
 
 trace::Camera camera_at(const SurfaceSetup& setup, double t) {
@@ -38,8 +37,7 @@ Instant instant(const SurfaceSetup& setup, double t) {
     const trace::Camera camera = camera_at(setup, t);
     const glm::dmat3 orientation = setup.placement.orientation(t);
     const trace::Ray world = world_ray(setup, camera, 0.5 * setup.scene.film.width, 0.5 * setup.scene.film.height);
-    return {orientation, world, camera.turned(orientation), to_local(setup, orientation, world, t),
-            trace::Placement::direction_to_local(orientation, setup.sun_direction)};
+    return {orientation, world, camera.turned(orientation), to_local(setup, orientation, world, t)};
 }
 
 void set_time(const SurfaceSetup& setup, double t, Instant& now) {
@@ -54,6 +52,14 @@ void aim(const SurfaceSetup& setup, const Instant& now, double u, double v, trac
     const trace::CameraRay seen = now.eye.ray(u, v);
     ray = now.ray;
     trace::Placement::aim(ray, seen.direction, setup.scene.sampling.tolerance * seen.pixel_angle);
+}
+
+// Of sample i, or of all of them for i = 0.
+void aim_at_lights(const SurfaceSetup& setup, const Instant& now, std::size_t i, SurfaceChunk& chunk) {
+    for (std::size_t l = 0; l < setup.lights.size(); ++l) {
+        chunk.to_light[l * chunk.directions_a_light + i] =
+            trace::Placement::direction_to_local(now.orientation, setup.lights[l].direction);
+    }
 }
 
 }  // namespace
@@ -75,11 +81,12 @@ void place_rays(const SurfaceSetup& setup, const SampleBatch& samples, SurfaceCh
     const bool spins = setup.placement.moves();
     chunk.rays.resize(count);
     chunk.view.resize(spins ? count : 0);
-    chunk.sun.resize(spins ? count : 1);
+    chunk.directions_a_light = spins ? count : 1;
+    chunk.to_light.resize(setup.lights.size() * chunk.directions_a_light);
     if (count == 0) return;
     double time = samples.t[chunk.order.front()];
     Instant now = instant(setup, time);
-    chunk.sun.front() = now.sun;
+    if (!spins) aim_at_lights(setup, now, 0, chunk);
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t sample = chunk.order[i];
         if (samples.t[sample] != time) {  // of an instant there is one
@@ -91,7 +98,7 @@ void place_rays(const SurfaceSetup& setup, const SampleBatch& samples, SurfaceCh
         if (!spins) continue;
         chunk.view[i] = trace::Placement::direction_to_local(setup.placement.resting_orientation(),
                                                              now.orientation * ray.direction);
-        chunk.sun[i] = now.sun;
+        aim_at_lights(setup, now, i, chunk);
     }
     meter.book(Phase::shading);
 }

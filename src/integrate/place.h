@@ -1,4 +1,4 @@
-// Stage of a surface's picture: the camera's rays, where camera, surface and sun are at each sample's own time.
+// Stage of a surface's picture: the camera's rays, where camera, surface and lights are at each sample's own time.
 #pragma once
 
 #include "src/integrate/image_function.h"
@@ -13,7 +13,7 @@ trace::Ray camera_ray(const SurfaceSetup& setup, double u, double v, double t);
 // The same in the surface's coordinates, to the bit as the picture has it.
 trace::Ray local_camera_ray(const SurfaceSetup& setup, double u, double v, double t);
 
-// Rays, their view and the sun of the samples chunk.order of a batch.
+// Rays, their view and the lights' directions of the samples chunk.order of a batch.
 void place_rays(const SurfaceSetup& setup, const SampleBatch& samples, SurfaceChunk& chunk, Counters& counters);
 
 }  // namespace strata::integrate

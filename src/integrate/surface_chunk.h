@@ -10,12 +10,12 @@
 
 namespace strata::integrate {
 
-// Rays from hits towards the sun.
+// Rays from hits towards the lights that cast shadows, light after light.
 struct ShadowRays {
     std::vector<trace::Ray> rays;
     std::vector<trace::Hit> hits;
     std::vector<std::uint32_t> owner;  // of the surface hits, by index
-    std::vector<double> spacing;       // how far those of neighbouring samples are apart, about; empty if not asked for
+    std::vector<double> spacing;       // of one light's, how far those of neighbouring samples are apart, about
     accel::SunlitCells sunlit;
 
     void clear() {
@@ -33,7 +33,11 @@ struct SurfaceChunk {
     // place_rays: of each sample, in the surface's coordinates.
     std::vector<trace::Ray> rays;
     std::vector<glm::dvec3> view;  // the rays' directions, as the sky lies; empty where those are the rays' own
-    std::vector<glm::dvec3> sun;   // of each sample, or one of all
+
+    // The same: towards each light, of unit length. Light l's from to_light[l * directions_a_light] on, of each sample
+    // or one of all.
+    std::vector<glm::dvec3> to_light;
+    std::size_t directions_a_light = 1;
 
     // trace_rays: of each sample.
     std::vector<trace::Hit> hits;
@@ -45,15 +49,23 @@ struct SurfaceChunk {
     std::vector<glm::vec3> normal;           // outward, of unit length
 
     // light_hits.
-    std::vector<float> visibility;  // of the sun, from each hit
     ShadowRays shadow;
-    std::vector<glm::vec3> radiance;  // of each sample
+    std::vector<float> visibility;              // light l's from the hits, from [l * hits] on; empty: all see all
+    std::vector<double> height, up_dot_normal;  // of each hit: ShadingPoint
+    std::vector<glm::vec3> light;               // radiance that a white Lambert surface would have at each hit
+    std::vector<glm::vec3> radiance;            // of each sample
 
     // fill_channels: of each sample.
     std::vector<SampleCost> costs;
 
     const glm::dvec3& view_of(std::size_t i) const { return view.empty() ? rays[i].direction : view[i]; }
-    const glm::dvec3& sun_of_hit(std::size_t i) const { return sun.size() == 1 ? sun.front() : sun[sample[i]]; }
+    const glm::dvec3& to_light_of_hit(std::size_t l, std::size_t i) const {
+        return to_light[l * directions_a_light + (directions_a_light == 1 ? 0 : sample[i])];
+    }
+    std::span<float> visibility_of(std::size_t l) {
+        return visibility.empty() ? std::span<float>()
+                                  : std::span(visibility).subspan(l * sample.size(), sample.size());
+    }
     const trace::Ray& ray_of_hit(std::size_t i) const { return rays[sample[i]]; }
 
     // What is filled hit by hit would be copied over and over while it grows: 5 to 8 % of a render.

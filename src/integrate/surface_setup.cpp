@@ -1,38 +1,71 @@
 #include "src/integrate/surface_setup.h"
 
+#include <algorithm>
+
 #include "src/scene/needs.h"
 
 namespace strata::integrate {
+
+namespace {
+
+double middle_of_shutter(const scene::Scene& scene) {
+    const scene::TimeSpan shutter = scene::open_shutter(scene);
+    return 0.5 * (shutter.first + shutter.last);
+}
+
+std::optional<shaders::DaylightScene> daylight_of(const SurfaceSetup& setup) {
+    const scene::Scene& scene = setup.scene;
+    if (scene.sky.model != scene::SkyModel::daylight) return {};
+    const glm::dmat3 axes = setup.placement.resting_orientation();
+    return std::make_optional<shaders::DaylightScene>(
+        scene, trace::Placement::direction_to_local(axes, glm::normalize(scene.sun.direction)),
+        setup.placement.point_to_local(axes, setup.path.at(middle_of_shutter(scene)).position));
+}
+
+// Of one instant of the surface.
+std::optional<accel::SunBeams> beams_of(const SurfaceSetup& setup, const glm::dvec3& to_light, bool casts_shadows) {
+    if (setup.tracer != Tracer::fast || !casts_shadows) return {};
+    const bool moves = setup.placement.moves() || setup.field.drifts();
+    if (moves && scene::needs_time_samples(setup.scene)) return {};
+    const double time = middle_of_shutter(setup.scene);
+    const glm::dmat3 orientation = setup.placement.orientation(time);
+    accel::SunBeams beams(setup.field, trace::Placement::direction_to_local(orientation, to_light),
+                          setup.field.noise_shift(time));
+    if (!beams.usable()) return {};
+    return beams;
+}
+
+std::vector<SceneLight> lights_of(const SurfaceSetup& setup, const shaders::ShaderInputs& inputs) {
+    std::vector<SceneLight> lights;
+    for (const shaders::Light& light : shaders::members_in<shaders::Light>(inputs)) {
+        const auto add = [&](const auto& member) {
+            const glm::dvec3 direction = member.direction();
+            const bool casts_shadows = member.casts_shadows();
+            lights.push_back({light, direction, casts_shadows, beams_of(setup, direction, casts_shadows)});
+        };
+        std::visit(add, light);
+    }
+    return lights;
+}
+
+}  // namespace
 
 SurfaceSetup::SurfaceSetup(const scene::Scene& picture, Tracer used_tracer, std::uint32_t most_steps)
     : scene(picture),
       tracer(used_tracer),
       step_limit(most_steps),
-      shader(scene.material, scene.sun, scene.sky),
       field(scene.surface),
       fast(field),
       placement(scene.surface),
       path(scene.camera),
       camera(path.at(0.0), scene.film),
-      sun_direction(glm::normalize(scene.sun.direction)),
-      has_shadows(scene::needs_shadow_rays(scene)) {
-    if (scene.sky.model == scene::SkyModel::daylight) {
-        const scene::TimeSpan open = scene::open_shutter(scene);
-        const double middle = 0.5 * (open.first + open.last);
-        const glm::dmat3 axes = placement.resting_orientation();
-        daylight.emplace(scene, trace::Placement::direction_to_local(axes, sun_direction),
-                         placement.point_to_local(axes, path.at(middle).position));
-    }
-    if (tracer != Tracer::fast) return;
-    screen_beams.emplace(scene, path, placement, field);
-    if (!has_shadows) return;
-    // The sun's beams are of one instant of the surface.
-    if (scene::needs_time_samples(scene) && (placement.moves() || field.drifts())) return;
-    const scene::TimeSpan shutter = scene::open_shutter(scene);
-    const double time = 0.5 * (shutter.first + shutter.last);
-    sun_beams.emplace(field, trace::Placement::direction_to_local(placement.orientation(time), sun_direction),
-                      field.noise_shift(time));
-    if (!sun_beams->usable()) sun_beams.reset();
+      daylight(daylight_of(*this)),
+      material(shaders::member_in<shaders::Material>(shader_inputs())),
+      background(shaders::member_in<shaders::Background>(shader_inputs())),
+      lights(lights_of(*this, shader_inputs())),
+      media(shaders::members_in<shaders::Medium>(shader_inputs())),
+      has_shadows(std::ranges::any_of(lights, &SceneLight::casts_shadows)) {
+    if (tracer == Tracer::fast) screen_beams.emplace(scene, path, placement, field);
 }
 
 }  // namespace strata::integrate

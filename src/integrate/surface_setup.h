@@ -2,11 +2,14 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
-#include "shaders_cpu/terrain_material.h"
+#include "shaders_cpu/backgrounds/all.h"
+#include "shaders_cpu/lights/all.h"
+#include "shaders_cpu/materials/all.h"
+#include "shaders_cpu/media/all.h"
 #include "src/accel/screen_beams.h"
 #include "src/accel/sun_beams.h"
-#include "src/integrate/daylight_scene.h"
 #include "src/scene/camera_path.h"
 #include "src/scene/scene.h"
 #include "src/trace/camera.h"
@@ -18,6 +21,14 @@ namespace strata::integrate {
 
 enum class Tracer { fast, reference };
 
+// A light of the scene, and what its shadow rays may be shortened by.
+struct SceneLight {
+    shaders::Light light;
+    glm::dvec3 direction;  // in the world, of unit length
+    bool casts_shadows;
+    std::optional<accel::SunBeams> beams;  // none where they would not serve, or it casts no shadows
+};
+
 struct SurfaceSetup {
     // picture.image is `surface`, and the scene is valid.
     SurfaceSetup(const scene::Scene& picture, Tracer used_tracer, std::uint32_t most_steps);
@@ -27,17 +38,21 @@ struct SurfaceSetup {
     scene::Scene scene;
     Tracer tracer;
     std::uint32_t step_limit;
-    shaders::TerrainShader shader;
     trace::Field field;
     trace::FastTracer fast;
     trace::Placement placement;
     scene::CameraPath path;
     trace::Camera camera;                            // where it stays, if it does
     std::optional<accel::ScreenBeams> screen_beams;  // none for the reference tracer
-    std::optional<accel::SunBeams> sun_beams;        // none where they would not serve, or nothing casts shadows
-    glm::dvec3 sun_direction;                        // in the world, of unit length
-    bool has_shadows;
-    std::optional<DaylightScene> daylight;  // in place of the chosen lights of `shader` and scene.sky
+    std::optional<shaders::DaylightScene> daylight;  // shared by what follows, if the sky is that of daylight
+    shaders::Material material;
+    shaders::Background background;
+    std::vector<SceneLight> lights;
+    std::vector<shaders::Medium> media;
+    bool has_shadows;  // of any light
+
+  private:
+    shaders::ShaderInputs shader_inputs() const { return {scene, daylight ? &*daylight : nullptr}; }
 };
 
 }  // namespace strata::integrate

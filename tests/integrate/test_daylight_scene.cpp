@@ -1,5 +1,5 @@
 // Daylight over a scene's ground: units, the eye's height, the shadow of mountains that the scene does not have.
-#include "src/integrate/daylight_scene.h"
+#include "shaders_cpu/daylight_scene.h"
 
 #include <doctest/doctest.h>
 
@@ -12,7 +12,7 @@
 namespace {
 
 using namespace strata;
-using integrate::DaylightScene;
+using shaders::DaylightScene;
 
 scene::Scene daylight_scene() {
     scene::Scene scene;
@@ -34,8 +34,9 @@ TEST_CASE("at the eye the air takes and adds nothing, far away it is all that is
     const DaylightScene daylight = daylight_of(daylight_scene());
     const glm::dvec3 level = glm::normalize(glm::dvec3(0.3, 0.02, 1.0));
     const glm::vec3 ground{0.2f, 0.1f, 0.05f};
-    CHECK(daylight.through_air(ground, level, 0.0) == ground);
-    const glm::vec3 near = daylight.through_air(ground, level, 10.0), far = daylight.through_air(ground, level, 1e5);
+    CHECK(daylight.air_along(level, 0.0).over(ground) == ground);
+    const glm::vec3 near = daylight.air_along(level, 10.0).over(ground),
+                    far = daylight.air_along(level, 1e5).over(ground);
     CHECK(glm::length(near - ground) < glm::length(far - ground));
     CHECK(luminance(far) == doctest::Approx(luminance(daylight.sky(level))).epsilon(0.1));
 }
@@ -43,13 +44,12 @@ TEST_CASE("at the eye the air takes and adds nothing, far away it is all that is
 TEST_CASE("metres in a surface unit set how blue distance is, and the altitude how thin the air") {
     scene::Scene scene = daylight_scene();
     const glm::dvec3 level{0.0, 0.0, 1.0};
-    const glm::vec3 black{0.0f};
-    const float small = luminance(daylight_of(scene).through_air(black, level, 50.0));
+    const float small = luminance(daylight_of(scene).air_along(level, 50.0).inscatter);
     scene.scale.metres = 1000.0;
-    CHECK(luminance(daylight_of(scene).through_air(black, level, 50.0)) > 2.0f * small);
+    CHECK(luminance(daylight_of(scene).air_along(level, 50.0).inscatter) > 2.0f * small);
     scene = daylight_scene();
     scene.sky.altitude_m = 4000.0;
-    CHECK(luminance(daylight_of(scene).through_air(black, level, 50.0)) < small);
+    CHECK(luminance(daylight_of(scene).air_along(level, 50.0).inscatter) < small);
 }
 
 TEST_CASE("white ground under a high sun is about 1, under a low sun red, and the sky's light grows with gain") {

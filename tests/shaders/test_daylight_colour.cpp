@@ -74,7 +74,7 @@ void check_close(const Colour& bands, const Colour& spectrum, double colour, dou
 
 TEST_CASE("the sun has its spectrum's colour from the zenith to the horizon") {
     const Atmosphere atmosphere;
-    const Medium medium(atmosphere);
+    const AirModel medium(atmosphere);
     for (const double elevation : {90.0, 30.0, 10.0, 5.0, 2.0, 0.5}) {
         CAPTURE(elevation);
         const Densities columns = columns_to_top(medium, 0.0, std::sin(elevation / 180.0 * std::numbers::pi));

@@ -144,7 +144,7 @@ TEST_CASE("air's optical depth is the published one") {
     // m g.
     Atmosphere atmosphere;
     atmosphere.visibility = 1e9;
-    const Medium medium(atmosphere);
+    const AirModel medium(atmosphere);
     const double column = columns_to_top(medium, 0.0, 1.0).air;
     const double molecules = medium.full().air[0] / rayleigh_cross_section(kBand_nm[0]);
     CHECK(molecules * column * rayleigh_cross_section(550.0) == doctest::Approx(0.0972).epsilon(0.01));
@@ -159,7 +159,7 @@ TEST_CASE("level air transmits as its Rayleigh coefficient says") {
     // The coefficients in common use, 5.802, 13.558 and 33.1e-6 /m for 680, 550 and 440 nm, are 18 % above those of air
     // at sea level: they come from a refractivity of 3e-4 and no more digits. `air` brings them back.
     atmosphere.air = 1.18;
-    const Medium medium(atmosphere);
+    const AirModel medium(atmosphere);
     const double molecules = medium.full().air[0] / rayleigh_cross_section(kBand_nm[0]);
     const double wavelengths[3] = {680.0, 550.0, 440.0};
     const double at_10_km[3] = {0.94, 0.87, 0.72};

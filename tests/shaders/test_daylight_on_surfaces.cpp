@@ -116,7 +116,7 @@ TEST_CASE("as many directions are sampled anywhere as the density says, within i
 }
 
 TEST_CASE("sunlight fades while the disc sets, and sets later higher up") {
-    const Medium medium{Atmosphere{}};
+    const AirModel medium{Atmosphere{}};
     double before = kInfinity;
     for (double elevation = 1.0; elevation > -0.4; elevation -= 0.02) {
         const double light = sunlight(medium, 0.0, std::sin(elevation / 180.0 * kPi)).full[0];
@@ -138,7 +138,7 @@ TEST_CASE("without air the setting sun gives as much light as its disc shows") {
     vacuum.visibility = 1e9;
     vacuum.air = vacuum.ozone_dobson = 0.0;
     vacuum.haze_albedo = 0.0;
-    const Medium medium(vacuum);
+    const AirModel medium(vacuum);
     for (const double above : {-2.0, -1.0, -0.7, 0.0, 0.5, 0.99, 1.0, 3.0}) {  // radii of the disc
         // Share of a unit disc beyond a chord, by a sum over strips.
         double share = 0.0;

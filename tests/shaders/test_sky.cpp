@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "shaders_cpu/media/all.h"
 #include "shaders_cpu/sky.h"
 
 using namespace strata;
@@ -28,6 +29,12 @@ bool between(const glm::vec3& value, const glm::dvec3& a, const glm::dvec3& b) {
         if (value[c] < std::min(a[c], b[c]) - kRounding || value[c] > std::max(a[c], b[c]) + kRounding) return false;
     }
     return true;
+}
+
+glm::vec3 apply_haze(const scene::Sky& sky, const glm::vec3& radiance, double distance, const glm::dvec3& direction) {
+    scene::Scene scene;
+    scene.sky = sky;
+    return Haze({scene, nullptr}).along(direction, distance).over(radiance);
 }
 
 }  // namespace
@@ -91,11 +98,20 @@ TEST_CASE("ambient light falls from sky to ground and has limits beyond a unit c
     CHECK(ambient_light(sky, -7.0) == ambient_light(sky, -1.0));
 }
 
-TEST_CASE("haze does nothing when off or near, becomes the sky far away and lies between") {
+TEST_CASE("haze is in scenes of the gradient sky with a distance, and in no others") {
+    scene::Scene scene;
+    CHECK(members_in<Medium>({scene, nullptr}).empty());
+    scene.sky.haze_distance = 60.0;
+    CHECK(members_in<Medium>({scene, nullptr}).size() == 1);
+    CHECK(Haze::is_in(scene));
+    scene.sky.model = scene::SkyModel::daylight;
+    CHECK(!Haze::is_in(scene));
+}
+
+TEST_CASE("haze does nothing when near, becomes the sky far away and lies between") {
     scene::Sky sky;
     const glm::vec3 radiance(0.9f, 0.05f, 0.4f);
     const glm::dvec3 direction = direction_at(-0.1, 1.0);
-    CHECK(apply_haze(sky, radiance, 1e9, direction) == radiance);  // 0: no haze
     sky.haze_distance = 60.0;
     CHECK(apply_haze(sky, radiance, 0.0, direction) == radiance);
     CHECK(apply_haze(sky, radiance, -1.0, direction) == radiance);

@@ -5,8 +5,9 @@
 #include <numbers>
 #include <random>
 
+#include "shaders_cpu/lights/all.h"
+#include "shaders_cpu/materials/all.h"
 #include "shaders_cpu/sky.h"
-#include "shaders_cpu/terrain_material.h"
 
 using namespace strata;
 using namespace strata::shaders;
@@ -22,12 +23,34 @@ bool close(const glm::vec3& a, const glm::vec3& b, double tolerance = 1e-6) {
 }
 
 glm::vec3 albedo(const scene::Material& material, double height, double slope_cosine) {
-    return TerrainShader(material, {}, {}).albedo(height, slope_cosine);
+    return TerrainMaterial(material).albedo(height, slope_cosine);
 }
 
-glm::vec3 shade(const scene::Material& material, const scene::Sun& sun, const scene::Sky& sky,
-                const SurfacePoint& point) {
-    return TerrainShader(material, sun, sky).radiance(point);
+struct LitPoint {
+    double height, up_dot_normal, n_dot_sun;
+    float sun_visibility;
+};
+
+// The sun overhead, the normal at n_dot_sun to it; "up" is another matter.
+glm::vec3 shade(const scene::Material& material, const scene::Sun& sun, const scene::Sky& sky, const LitPoint& lit) {
+    scene::Scene scene;
+    scene.material = material;
+    scene.sun = sun;
+    scene.sky = sky;
+    const double level = std::sqrt(std::max(0.0, 1.0 - lit.n_dot_sun * lit.n_dot_sun));
+    const ShadingPoint point{.normal = {level, lit.n_dot_sun, 0.0},
+                             .height = lit.height,
+                             .up_dot_normal = lit.up_dot_normal,
+                             .to_light = {0.0, 1.0, 0.0}};
+    glm::vec3 light(0.0f);
+    for (const Light& source : members_in<Light>({scene, nullptr})) {
+        light += std::visit(
+            [&](const auto& member) {
+                return member.on_white(point) * (member.casts_shadows() ? lit.sun_visibility : 1.0f);
+            },
+            source);
+    }
+    return TerrainMaterial(material).reflectance(point) * light;
 }
 
 double luminance(const glm::vec3& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
@@ -124,12 +147,13 @@ TEST_CASE("sunlight is Lambert's: proportional to the cosine, to visibility, to 
     scene::Sky dark;
     dark.zenith = dark.horizon = glm::dvec3(0.0);
     const scene::Material material;
-    const SurfacePoint facing{0.0, 1.0, 1.0, 1.0};
+    const LitPoint facing{0.0, 1.0, 1.0, 1.0f};
     const glm::vec3 full = shade(material, sun, dark, facing);
     CHECK(close(full, glm::vec3(material.low * sun.colour * sun.intensity / std::numbers::pi)));
     for (const double cosine : {0.0, 0.25, 0.5, 0.9}) {
         CHECK(close(shade(material, sun, dark, {0.0, 1.0, cosine, 1.0}), full * static_cast<float>(cosine)));
-        CHECK(close(shade(material, sun, dark, {0.0, 1.0, 1.0, cosine}), full * static_cast<float>(cosine)));
+        CHECK(close(shade(material, sun, dark, {0.0, 1.0, 1.0, static_cast<float>(cosine)}),
+                    full * static_cast<float>(cosine)));
     }
     CHECK(shade(material, sun, dark, {0.0, 1.0, -0.7, 1.0}) == glm::vec3(0.0f));
     sun.intensity *= 2.0;

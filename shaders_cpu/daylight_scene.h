@@ -7,9 +7,10 @@
 
 #include "noise/fbm.h"
 #include "shaders_cpu/daylight/daylight.h"
+#include "shaders_cpu/medium_segment.h"
 #include "src/scene/scene.h"
 
-namespace strata::integrate {
+namespace strata::shaders {
 
 // Luminance that radiance 1 stands for, cd/m^2: about what white ground under a high sun has, so that daylight and
 // chosen lights want like exposures.
@@ -32,15 +33,15 @@ class DaylightScene {
     float sun_over_ridges(const glm::dvec3& x) const;
     glm::vec3 sky_on_white(const glm::dvec3& normal) const;
 
-    // Radiance seen through the air; distance from the eye in surface units.
-    glm::vec3 through_air(const glm::vec3& radiance, const glm::dvec3& direction, double distance) const;
+    // The air from the eye on; distance in surface units.
+    MediumSegment air_along(const glm::dvec3& direction, double distance) const;
 
   private:
     double metres_, altitude_, gain_;
     scene::Sun sun_;
     glm::dvec3 across_;  // level, across the sun's direction
     std::vector<noise::Octave> ridges_;
-    shaders::Daylight daylight_;
+    Daylight daylight_;
 };
 
-}  // namespace strata::integrate
+}  // namespace strata::shaders

@@ -1,4 +1,4 @@
-#include "src/integrate/daylight_scene.h"
+#include "shaders_cpu/daylight_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,14 +6,14 @@
 
 #include "noise/reference.h"
 
-namespace strata::integrate {
+namespace strata::shaders {
 
 namespace {
 
 constexpr double kHighest = 100e3, kLowest = -1000.0;  // of the model, metres
 
-shaders::Atmosphere atmosphere_of(const scene::Sky& sky) {
-    shaders::Atmosphere atmosphere;
+Atmosphere atmosphere_of(const scene::Sky& sky) {
+    Atmosphere atmosphere;
     atmosphere.visibility = 1000.0 * sky.visibility_km;
     return atmosphere;
 }
@@ -67,9 +67,9 @@ glm::vec3 DaylightScene::sky_on_white(const glm::dvec3& normal) const {
     return radiance_of(light * (gain_ * std::numbers::inv_pi));
 }
 
-glm::vec3 DaylightScene::through_air(const glm::vec3& radiance, const glm::dvec3& direction, double distance) const {
-    const shaders::AerialPerspective air = daylight_.aerial_from_observer(direction, distance * metres_);
-    return radiance * glm::vec3(air.transmittance) + radiance_of(air.inscatter);
+MediumSegment DaylightScene::air_along(const glm::dvec3& direction, double distance) const {
+    const AerialPerspective air = daylight_.aerial_from_observer(direction, distance * metres_);
+    return {.transmittance = glm::vec3(air.transmittance), .inscatter = radiance_of(air.inscatter)};
 }
 
-}  // namespace strata::integrate
+}  // namespace strata::shaders

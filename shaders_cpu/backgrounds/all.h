@@ -1,0 +1,22 @@
+// Every background: what a ray sees that meets nothing. A new one is a file like its neighbours here, its #include and
+// its name in the list; a scene has the first that is in it.
+#pragma once
+
+#include "shaders_cpu/backgrounds/daylight_sky.h"
+#include "shaders_cpu/backgrounds/gradient_sky.h"
+#include "shaders_cpu/closed_list.h"
+
+namespace strata::shaders {
+
+// radiance: linear, from a unit direction by the axes in which the sky lies.
+template <class T>
+concept BackgroundMember = ListMember<T> && requires(const T background, const glm::dvec3& direction) {
+    { background.radiance(direction) } -> std::same_as<glm::vec3>;
+};
+
+template <BackgroundMember... Members>
+using BackgroundList = std::variant<Members...>;
+
+using Background = BackgroundList<DaylightSky, GradientSky>;
+
+}  // namespace strata::shaders

@@ -1,0 +1,25 @@
+// The sky that sunlight makes of the Earth's air (daylight/daylight.h), without the sun's disc.
+//
+//   [sky]
+//   model = "daylight"
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "shaders_cpu/closed_list.h"
+
+namespace strata::shaders {
+
+class DaylightSky {
+  public:
+    static bool is_in(const scene::Scene& scene) { return scene.sky.model == scene::SkyModel::daylight; }
+
+    explicit DaylightSky(const ShaderInputs& inputs) : daylight_(inputs.daylight) {}
+
+    glm::vec3 radiance(const glm::dvec3& direction) const { return daylight_->sky(direction); }
+
+  private:
+    const DaylightScene* daylight_;
+};
+
+}  // namespace strata::shaders

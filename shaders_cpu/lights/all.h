@@ -1,0 +1,29 @@
+// Every light. A new one is a file like its neighbours here, its #include and its name in the list; a scene has all
+// that are in it, and adds them up in the list's order.
+#pragma once
+
+#include "shaders_cpu/closed_list.h"
+#include "shaders_cpu/lights/chosen_sun.h"
+#include "shaders_cpu/lights/daylight_ambient.h"
+#include "shaders_cpu/lights/daylight_sun.h"
+#include "shaders_cpu/lights/gradient_ambient.h"
+#include "shaders_cpu/shading_point.h"
+
+namespace strata::shaders {
+
+// direction: towards the light, or to where most of it comes from; in the world, of unit length.
+// casts_shadows: whether a ray in that direction decides if the light arrives. Light of the whole sky has none.
+// on_white: linear radiance of a white Lambert surface in this light alone, with nothing in its way.
+template <class T>
+concept LightMember = ListMember<T> && requires(const T light, const ShadingPoint& point) {
+    { light.direction() } -> std::convertible_to<glm::dvec3>;
+    { light.casts_shadows() } -> std::same_as<bool>;
+    { light.on_white(point) } -> std::same_as<glm::vec3>;
+};
+
+template <LightMember... Members>
+using LightList = std::variant<Members...>;
+
+using Light = LightList<ChosenSun, GradientAmbient, DaylightSun, DaylightAmbient>;
+
+}  // namespace strata::shaders

@@ -1,0 +1,33 @@
+// Light of the daylight sky, and of the ground below its horizon, on a surface. It arrives everywhere.
+//
+//   gain   1 is true, more is a photographer's fill   1
+//
+//   [sky]
+//   model = "daylight"
+//   gain = 1.0
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "shaders_cpu/closed_list.h"
+#include "shaders_cpu/shading_point.h"
+
+namespace strata::shaders {
+
+class DaylightAmbient {
+  public:
+    static bool is_in(const scene::Scene& scene) { return scene.sky.model == scene::SkyModel::daylight; }
+
+    explicit DaylightAmbient(const ShaderInputs& inputs)
+        : daylight_(inputs.daylight), direction_(glm::normalize(inputs.scene.sun.direction)) {}
+
+    const glm::dvec3& direction() const { return direction_; }
+    bool casts_shadows() const { return false; }
+    glm::vec3 on_white(const ShadingPoint& point) const { return daylight_->sky_on_white(point.normal); }
+
+  private:
+    const DaylightScene* daylight_;
+    glm::dvec3 direction_;  // of the sun
+};
+
+}  // namespace strata::shaders

@@ -1,0 +1,43 @@
+// The sun as the Earth's air leaves it, less what mountains out of the picture take.
+//
+//   [sky]
+//   model = "daylight"
+//   [sun]
+//   direction = [0.4, 0.1, -0.3]
+//   shadow_height = 0.2
+//   shadow_relief = 0.1
+#pragma once
+
+#include <algorithm>
+#include <glm/glm.hpp>
+
+#include "shaders_cpu/closed_list.h"
+#include "shaders_cpu/shading_point.h"
+#include "src/scene/needs.h"
+
+namespace strata::shaders {
+
+class DaylightSun {
+  public:
+    static bool is_in(const scene::Scene& scene) { return scene.sky.model == scene::SkyModel::daylight; }
+
+    explicit DaylightSun(const ShaderInputs& inputs)
+        : daylight_(inputs.daylight),
+          direction_(glm::normalize(inputs.scene.sun.direction)),
+          casts_shadows_(scene::needs_shadow_rays(inputs.scene)) {}
+
+    const glm::dvec3& direction() const { return direction_; }
+    bool casts_shadows() const { return casts_shadows_; }
+
+    glm::vec3 on_white(const ShadingPoint& point) const {
+        const auto n_dot_sun = static_cast<float>(std::max(glm::dot(point.normal, point.to_light), 0.0));
+        return daylight_->sun_on_white(point.height) * (n_dot_sun * daylight_->sun_over_ridges(point.x));
+    }
+
+  private:
+    const DaylightScene* daylight_;
+    glm::dvec3 direction_;
+    bool casts_shadows_;
+};
+
+}  // namespace strata::shaders

@@ -1,0 +1,37 @@
+#include "shaders_cpu/materials/terrain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace strata::shaders {
+namespace {
+
+// 0 to 1 over [centre - width/2, centre + width/2], width > 0.
+float blend(double x, double centre, double width) {
+    const double s = std::clamp((x - centre) / width + 0.5, 0.0, 1.0);
+    return static_cast<float>(s * s * (3.0 - 2.0 * s));
+}
+
+// Arc cosine of x in [-1, 1], degrees, to 2e-6 degrees: Abramowitz and Stegun 4.4.46.
+double arc_cosine_deg(double x) {
+    const double y = std::abs(x), y2 = y * y, y4 = y2 * y2;
+    const double low = 1.5707963050 - 0.2145988016 * y + (0.0889789874 - 0.0501743046 * y) * y2;
+    const double high = 0.0308918810 - 0.0170881256 * y + (0.0066700901 - 0.0012624911 * y) * y2;
+    const double angle = std::sqrt(1.0 - y) * (low + high * y4) * (180.0 / std::numbers::pi);
+    return x < 0.0 ? 180.0 - angle : angle;
+}
+
+}  // namespace
+
+TerrainMaterial::TerrainMaterial(const scene::Material& material)
+    : material_(material), low_(material.low), rise_(material.high - material.low), steep_(material.steep) {}
+
+glm::vec3 TerrainMaterial::albedo(double height, double slope_cosine) const {
+    const double slope_deg = arc_cosine_deg(std::clamp(slope_cosine, -1.0, 1.0));
+    const glm::vec3 gentle = low_ + rise_ * blend(height, material_.band_height, material_.band_width);
+    const float steep = blend(slope_deg, material_.steep_deg, material_.steep_width_deg);
+    return gentle * (1.0f - steep) + steep_ * steep;
+}
+
+}  // namespace strata::shaders

@@ -1,0 +1,38 @@
+// Haze: grey air that takes on the sky's colour in the ray's direction - horizon for level rays - so that a surface far
+// away melts into the sky beside it. Beer-Lambert extinction.
+//
+//   haze_distance  surface units over which 1 - 1/e of the light is lost to haze    0: no haze
+//
+//   [sky]
+//   haze_distance = 60.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "shaders_cpu/closed_list.h"
+#include "shaders_cpu/medium_segment.h"
+#include "shaders_cpu/sky.h"
+
+namespace strata::shaders {
+
+class Haze {
+  public:
+    static bool is_in(const scene::Scene& scene) {
+        return scene.sky.model == scene::SkyModel::gradient && scene.sky.haze_distance > 0.0;
+    }
+
+    explicit Haze(const ShaderInputs& inputs) : sky_(inputs.scene.sky) {}
+
+    // An infinite distance gives the sky alone.
+    MediumSegment along(const glm::dvec3& direction, double distance) const {
+        const auto clear = static_cast<float>(std::exp(-std::max(distance, 0.0) / sky_.haze_distance));
+        return {.transmittance = glm::vec3(clear), .inscatter = sky_radiance(sky_, direction) * (1.0f - clear)};
+    }
+
+  private:
+    scene::Sky sky_;
+};
+
+}  // namespace strata::shaders

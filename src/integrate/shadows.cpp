@@ -1,0 +1,79 @@
+#include "src/integrate/shadows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/integrate/phase_meter.h"
+#include "src/integrate/trace_rays.h"
+#include "src/trace/shadow_ray.h"
+
+namespace strata::integrate {
+
+namespace {
+
+// How far apart the shadow rays of neighbouring samples are, from the area of the surface that a sample stands for.
+double shadow_spacing(const SurfaceSetup& setup, const SurfaceChunk& chunk, const glm::dvec3& to_light, std::size_t i) {
+    constexpr double kLeastCosine = 0.05;
+    const scene::Sampling& sampling = setup.scene.sampling;
+    const int samples_a_side = sampling.estimator == scene::EstimatorKind::none ? 1 : sampling.N;
+    const trace::Ray& ray = chunk.ray_of_hit(i);
+    const glm::dvec3 normal(chunk.normal[i]);
+    const double pixel = ray.delta_slope / sampling.tolerance * chunk.surface_hits[i].s;
+    const double to_eye = std::max(std::abs(glm::dot(normal, ray.direction)), kLeastCosine);
+    const double facing = std::max(glm::dot(normal, to_light), kLeastCosine);
+    return pixel * std::sqrt(facing / to_eye) / samples_a_side;
+}
+
+// A point of the convex bound that faces the light sees it.
+void make_shadow_rays(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& chunk) {
+    ShadowRays& shadow = chunk.shadow;
+    shadow.spacing.clear();
+    for (std::size_t i = 0; i < chunk.sample.size(); ++i) {
+        const glm::dvec3 normal(chunk.normal[i]), to_light = chunk.to_light_of_hit(l, i);
+        const trace::Hit& hit = chunk.surface_hits[i];
+        if (glm::dot(normal, to_light) <= 0.0 || hit.on_bound) continue;
+        shadow.rays.push_back(trace::shadow_ray(chunk.ray_of_hit(i), hit, normal, to_light));
+        shadow.owner.push_back(static_cast<std::uint32_t>(i));
+        if (setup.lights[l].beams) shadow.spacing.push_back(shadow_spacing(setup, chunk, to_light, i));
+    }
+}
+
+void cast_shadows_of(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& chunk, Counters& counters) {
+    PhaseMeter meter(counters);
+    ShadowRays& shadow = chunk.shadow;
+    const std::size_t first = shadow.rays.size();
+    make_shadow_rays(setup, l, chunk);
+    const std::span<trace::Ray> rays = std::span(shadow.rays).subspan(first);
+    trace::TraceCounters traced;
+    if (setup.lights[l].beams) setup.lights[l].beams->shorten(rays, shadow.spacing, shadow.sunlit, traced);
+    meter.book(Phase::sun_beams, traced);
+
+    traced = {};
+    shadow.hits.resize(shadow.rays.size());
+    trace_rays(setup, rays, std::span(shadow.hits).subspan(first), traced);
+    const std::span<float> visibility = chunk.visibility_of(l);
+    for (std::size_t i = first; i < shadow.hits.size(); ++i) {
+        const trace::HitState state = shadow.hits[i].state;
+        if (state != trace::HitState::miss) visibility[shadow.owner[i]] = 0.0f;
+        if (state == trace::HitState::unresolved) ++counters.unresolved_rays;
+    }
+    counters.shadow_rays += rays.size();
+    meter.book(Phase::shadows, traced);
+}
+
+}  // namespace
+
+void clear_shadows(SurfaceChunk& chunk) {
+    chunk.shadow.clear();
+    chunk.visibility.clear();
+}
+
+void cast_shadows(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counters) {
+    chunk.shadow.clear();
+    chunk.visibility.assign(setup.lights.size() * chunk.sample.size(), 1.0f);
+    for (std::size_t l = 0; l < setup.lights.size(); ++l) {
+        if (setup.lights[l].casts_shadows) cast_shadows_of(setup, l, chunk, counters);
+    }
+}
+
+}  // namespace strata::integrate

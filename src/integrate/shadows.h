@@ -1,0 +1,16 @@
+// Part of the stage of light.h: which lights each hit sees.
+#pragma once
+
+#include "src/integrate/image_function.h"
+#include "src/integrate/surface_chunk.h"
+#include "src/integrate/surface_setup.h"
+
+namespace strata::integrate {
+
+// All hits see all lights.
+void clear_shadows(SurfaceChunk& chunk);
+
+// Follows rays from the hits to the lights that cast shadows: chunk.visibility.
+void cast_shadows(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counters);
+
+}  // namespace strata::integrate
