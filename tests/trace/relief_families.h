@@ -44,8 +44,9 @@ inline std::vector<noise::ReliefTerm> random_relief(Random& random) {
     return terms;
 }
 
-// Of height fields: a relief as above, perhaps put in place, filled and carved.
-inline std::vector<noise::ReliefTerm> random_landform(Random& random) {
+// Of height fields: a relief as above, perhaps put in place, filled and carved. Gullies of many octaves are dear to
+// trace and to judge.
+inline std::vector<noise::ReliefTerm> random_landform(Random& random, unsigned most_gullies = 4) {
     std::vector<noise::ReliefTerm> terms = random_relief(random);
     const auto add = [&](std::string name, noise::ReliefNode node) {
         const std::string before = terms.back().name;
@@ -62,7 +63,7 @@ inline std::vector<noise::ReliefTerm> random_landform(Random& random) {
     if (random() % 2 == 0) add("f", noise::Fill{uniform(random, -0.1, 0.3), log_uniform(random, 0.02, 0.3)});
     if (random() % 2 == 0 || terms.size() < 3) {
         noise::Gullies gullies;
-        gullies.parameters.octaves = 1 + static_cast<int>(random() % 4);
+        gullies.parameters.octaves = 1 + static_cast<int>(random() % most_gullies);
         gullies.parameters.amplitude = uniform(random, 0.05, 0.25);
         gullies.parameters.seed = random() >> 1;
         gullies.size = log_uniform(random, 0.3, 2.0);

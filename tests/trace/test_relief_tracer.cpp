@@ -2,44 +2,10 @@
 #include <doctest/doctest.h>
 
 #include "src/trace/beam_tracer.h"
-#include "tests/trace/relief_families.h"
-
-namespace {
+#include "tests/trace/relief_check.h"
 
 using namespace strata;
 using namespace strata::trace_test;
-
-void check_rays(const scene::Surface& surface, std::size_t count, Random& random, std::size_t& rays_total) {
-    const trace::Field field(surface);
-    const trace::FastTracer tracer(field);
-    RayFamilies families(field, tracer, log_uniform(random, 5e-4, 5e-3));
-    const std::vector<trace::Ray> rays = families.make(random, count);
-    std::vector<trace::Hit> hits(rays.size());
-    trace::TraceCounters counters;
-    tracer.trace(rays, hits, counters);
-    const Judgement found = judge_composed(surface, rays, hits, families.times());
-    MESSAGE("kind " << static_cast<int>(surface.kind) << ", " << surface.relief.size() << " terms, " << found.rays
-                    << " rays, " << found.hits << " hits, thickest stretch passed over " << found.thickest
-                    << " delta (bound 1), undecided " << found.undecided << ", evaluations a ray "
-                    << static_cast<double>(counters.noise_evaluations) / static_cast<double>(rays.size())
-                    << ", steps a ray " << static_cast<double>(counters.steps) / static_cast<double>(rays.size()));
-    INFO("last violation from (" << found.origin.x << ' ' << found.origin.y << ' ' << found.origin.z << ") towards ("
-                                 << found.direction.x << ' ' << found.direction.y << ' ' << found.direction.z << ')');
-    CHECK(found.missed == 0);
-    CHECK(found.unfounded == 0);
-    CHECK(found.unresolved == 0);
-    CHECK(found.undecided * 500 <= found.rays);
-    rays_total += found.rays;
-}
-
-scene::Surface plain(scene::SurfaceKind kind, std::vector<noise::ReliefTerm> relief) {
-    scene::Surface surface;
-    surface.kind = kind;
-    surface.relief = std::move(relief);
-    return surface;
-}
-
-}  // namespace
 
 TEST_CASE("no ray passes over a ridged or a warped relief, and every hit is on it") {
     Random random(11);
@@ -79,7 +45,7 @@ TEST_CASE("no ray passes over gullies, envelopes and filled valleys") {
     std::size_t rays = 0;
     for (int i = 0; i < 10; ++i) {
         scene::Surface surface;
-        surface.relief = random_landform(random);
+        surface.relief = random_landform(random, 2);
         check_rays(surface, 60, random, rays);
     }
     MESSAGE("rays in all: " << rays);
