@@ -54,8 +54,8 @@ HWY_INLINE void settle_relief(const Field& field, Packet& packet, const WidePoin
 }
 
 template <bool kPlanar>
-HWY_INLINE ReliefStep relief_step(const Field& field, const ReliefPlan& plan, Packet& packet, FloatVec delta,
-                                  TraceCounters& counters) {
+HWY_INLINE ReliefStep relief_step(const Field& field, const TracePlan& constants, const ReliefPlan& plan,
+                                  Packet& packet, FloatVec delta, TraceCounters& counters) {
     const FloatTag d;
     const WordTag dw;
     const FloatVec zero = hn::Zero(d);
@@ -83,9 +83,14 @@ HWY_INLINE ReliefStep relief_step(const Field& field, const ReliefPlan& plan, Pa
     auto unsure = hn::And(active, hn::AndNot(inside, hn::Le(lower, zero)));
     step.is_hit = hn::And(active, inside);
     const auto settled = hn::And(unsure, whole);
+    FloatVec least = zero;
     if (!hn::AllFalse(d, settled)) {
         settle_relief(field, packet, x, settled, step.f, counters);
-        lower = hn::IfThenZeroElse(settled, lower);  // what is known of the point says nothing of those about it
+        // What is known of the point says nothing of those about it, but for what the global Lipschitz constant does:
+        // without it a ray whose tolerance begins at 0 would stay for ever at a start that float cannot tell from a hit.
+        lower = hn::IfThenZeroElse(settled, lower);
+        const FloatVec slowest = set(constants.inverse_lipschitz * static_cast<float>(kRoundDown));
+        least = hn::IfThenElseZero(settled, hn::Mul(hn::Max(step.f, zero), slowest));
         step.is_hit = hn::Or(step.is_hit, hn::And(settled, hn::Le(step.f, zero)));
         unsure = hn::AndNot(whole, unsure);
     }
@@ -97,7 +102,7 @@ HWY_INLINE ReliefStep relief_step(const Field& field, const ReliefPlan& plan, Pa
     const FloatVec turned = hn::Mul(set(kDifference), hn::Add(set(1.0f), length(r.gradient)));
     const FloatVec rate = hn::Sub(step.slope, hn::MulAdd(r.up.e1, speed, turned));
     const FloatVec bend = hn::Mul(r.up.e2, hn::Mul(speed, speed));
-    step.safe = hn::Min(first_root(lower, rate, bend), hint);
+    step.safe = hn::Max(hn::Min(first_root(lower, rate, bend), hint), least);
     return step;
 }
 
@@ -112,15 +117,15 @@ HWY_INLINE void end_relief_ray(Packet& packet, std::size_t lane, HitState state,
 }
 
 template <bool kPlanar>
-HWY_INLINE void step_relief(const Field& field, const ReliefPlan& plan, Packet& packet, std::span<Hit> hits,
-                            TraceCounters& counters) {
+HWY_INLINE void step_relief(const Field& field, const TracePlan& constants, const ReliefPlan& plan, Packet& packet,
+                            std::span<Hit> hits, TraceCounters& counters) {
     const FloatTag d;
     const WordTag dw;
     const auto active = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
     const Wide s = load_wide(packet.s);
     const Wide delta = mul_add(load_wide(packet.delta_slope), s, load_wide(packet.delta0));
     const FloatVec delta_float = to_float(delta), hint = hn::Load(d, packet.hint);
-    const ReliefStep found = relief_step<kPlanar>(field, plan, packet, delta_float, counters);
+    const ReliefStep found = relief_step<kPlanar>(field, constants, plan, packet, delta_float, counters);
     const WordVec taken =
         hn::Add(hn::Load(dw, packet.steps), hn::IfThenElseZero(hn::RebindMask(dw, active), hn::Set(dw, 1u)));
     hn::Store(taken, dw, packet.steps);
@@ -171,7 +176,7 @@ HWY_NOINLINE void trace_relief_rays(const Field& field, const TracePlan& constan
             }
         }
         if (packet.active_count == 0) return;
-        step_relief<kPlanar>(field, plan, packet, hits, counters);
+        step_relief<kPlanar>(field, constants, plan, packet, hits, counters);
     }
 }
 

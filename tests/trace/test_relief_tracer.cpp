@@ -125,3 +125,27 @@ TEST_CASE("within a beam's free stretch no point is inside a composed relief") {
     MESSAGE("points: " << points);
     CHECK(points > 2000);
 }
+
+TEST_CASE("a ray that starts closer to a relief than float can tell comes away from it") {
+    noise::Ridged ridged;
+    ridged.parameters = {.octaves = 5, .gain = 0.46, .amplitude = 1.4, .frequency = 0.3, .seed = 7};
+    for (const auto kind : {scene::SurfaceKind::terrain, scene::SurfaceKind::hyperterrain}) {
+        const trace::Field field(plain(kind, {{"ridges", {}, ridged}}));
+        const trace::FastTracer tracer(field);
+        Random random(17);
+        for (int i = 0; i < 50; ++i) {
+            glm::dvec3 x{uniform(random, -9.0, 9.0), 0.0, uniform(random, -9.0, 9.0)};
+            double low = -3.0, high = 3.0;  // field < 0 at low, > 0 at high
+            while (high - low > 1e-10) {
+                x.y = 0.5 * (low + high);
+                (field.value(x) > 0.0 ? high : low) = x.y;
+            }
+            x.y = high;
+            const trace::Ray ray{.origin = x, .direction = {0.0, 1.0, 0.0}, .limit = 40.0, .delta_slope = 1e-4};
+            trace::Hit hit;
+            trace::TraceCounters counters;
+            tracer.trace({&ray, 1}, {&hit, 1}, counters);
+            CHECK(hit.state == trace::HitState::miss);
+        }
+    }
+}
