@@ -14,9 +14,8 @@ constexpr int kSunsBelow = 32;  // even in `up`, since twilight falls by e in on
 constexpr int kSunsAbove = 20;  // as the square
 constexpr int kSuns = kSunsBelow + kSunsAbove + 1;
 constexpr double kDarkUp = -0.3;  // 17 degrees below the horizon: no light
-constexpr int kAzimuths = 6;
+constexpr int kUpAzimuths = 6;
 constexpr int kSteps = 24;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Gauss and Legendre's eight nodes and weights on [0,1]; the other four are mirror images.
 constexpr std::array<double, 4> kNode = {0.019855071751231856, 0.10166676129318664, 0.2372337950418355,
@@ -62,7 +61,7 @@ class ScatteredLight::Gatherer {
         : medium_(medium),
           up_(up),
           path_(medium, height, up, distance_to_ground(height, up), kSteps),
-          meets_ground_(distance_to_ground(height, up) < kInfinity) {}
+          meets_ground_(distance_to_ground(height, up) < std::numeric_limits<double>::infinity()) {}
 
     // Sunlight: mean over the azimuth of the radiance that comes from the cone.
     glm::vec4 sunlight(const SunTable& sun, double sun_up) const {
@@ -123,9 +122,9 @@ class ScatteredLight::Gatherer {
     glm::vec4 mean_over_azimuth(double sun_up, const Radiance& radiance) const {
         const double level = std::sqrt(std::max(0.0, (1.0 - up_ * up_) * (1.0 - sun_up * sun_up)));
         glm::vec4 sum(0.0f);
-        for (int a = 0; a < kAzimuths; ++a)
-            sum += radiance(up_ * sun_up + level * std::cos((a + 0.5) / kAzimuths * std::numbers::pi));
-        return sum / static_cast<float>(kAzimuths);
+        for (int a = 0; a < kUpAzimuths; ++a)
+            sum += radiance(up_ * sun_up + level * std::cos((a + 0.5) / kUpAzimuths * std::numbers::pi));
+        return sum / static_cast<float>(kUpAzimuths);
     }
 
     const AirModel& medium_;

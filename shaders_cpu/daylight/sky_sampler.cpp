@@ -7,16 +7,15 @@
 namespace strata::shaders {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kRows = 32;
 constexpr int kColumns = 64;
-constexpr double kCellSolidAngle = 2.0 * kPi / (kRows * kColumns);
+constexpr double kCellSolidAngle = 2.0 * std::numbers::pi / (kRows * kColumns);
 constexpr double kBesideCosine = 0.2;
 constexpr double kEven = 0.01;
 
 glm::dvec3 direction_of(double y, double turns) {
     const double level = std::sqrt(std::max(0.0, 1.0 - y * y));
-    return {level * std::cos(2.0 * kPi * turns), y, level * std::sin(2.0 * kPi * turns)};
+    return {level * std::cos(2.0 * std::numbers::pi * turns), y, level * std::sin(2.0 * std::numbers::pi * turns)};
 }
 
 // Which interval of a cumulated density u falls into, and how far.
@@ -72,7 +71,7 @@ SkySample SkySampler::sample(double u0, double u1) const {
 
 double SkySampler::pdf(const glm::dvec3& direction) const {
     if (direction.y < 0.0) return 0.0;
-    const double turns = std::atan2(direction.z, direction.x) / (2.0 * kPi);
+    const double turns = std::atan2(direction.z, direction.x) / (2.0 * std::numbers::pi);
     const int row = std::min(static_cast<int>(direction.y * kRows), kRows - 1);
     const int column = std::clamp(static_cast<int>((turns < 0.0 ? turns + 1.0 : turns) * kColumns), 0, kColumns - 1);
     return probability_[row * kColumns + column] / kCellSolidAngle;

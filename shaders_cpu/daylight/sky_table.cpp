@@ -9,9 +9,9 @@ namespace {
 
 constexpr int kUpsAbove = 144;
 constexpr int kUpsBelow = 64;
-constexpr int kAzimuths = 33;
+constexpr int kSkyAzimuths = 33;
 
-void put(const glm::dvec3& rgb, float (&to)[4]) {
+void put_sky(const glm::dvec3& rgb, float (&to)[4]) {
     for (int c = 0; c < 3; ++c) to[c] = static_cast<float>(rgb[c]);
     to[3] = 0.0f;
 }
@@ -19,7 +19,7 @@ void put(const glm::dvec3& rgb, float (&to)[4]) {
 }  // namespace
 
 SkyTable::SkyTable(const AirLight& light, const SkyFrame& frame) : horizon_(horizon_up(frame.height)) {
-    nodes_.reserve((kUpsAbove + kUpsBelow) * kAzimuths);
+    nodes_.reserve((kUpsAbove + kUpsBelow) * kSkyAzimuths);
     const auto add_rows = [&](int rows, double reach, bool ground) {
         for (int k = 0; k < rows; ++k) {
             const double x = static_cast<double>(k) / (rows - 1);
@@ -28,13 +28,13 @@ SkyTable::SkyTable(const AirLight& light, const SkyFrame& frame) : horizon_(hori
                                : k > 0 ? distance_to_ground(frame.height, up)
                                        : -(kEarthRadius + frame.height) * horizon_;
             const AirPath path(light.medium(), frame.height, up, end, AirLight::kPathSteps);
-            for (int a = 0; a < kAzimuths; ++a) {
-                const double cosine = frame.cosine_of(up, -1.0 + 2.0 * a / (kAzimuths - 1));
+            for (int a = 0; a < kSkyAzimuths; ++a) {
+                const double cosine = frame.cosine_of(up, -1.0 + 2.0 * a / (kSkyAzimuths - 1));
                 AirRadiance seen = light.of_path(path, frame.sun.y, cosine);
                 if (ground) seen.even += light.of_ground(path, frame.sun.y, cosine);
                 Node node;
-                put(to_rgb(seen.even), node.even);
-                put(to_rgb(seen.lobe), node.lobe);
+                put_sky(to_rgb(seen.even), node.even);
+                put_sky(to_rgb(seen.lobe), node.lobe);
                 nodes_.push_back(node);
             }
         }
@@ -47,9 +47,9 @@ glm::dvec3 SkyTable::radiance(const AirModel& medium, const SkyDirection& direct
     const bool above = direction.up >= horizon_;
     const double reach = above ? 1.0 - horizon_ : -1.0 - horizon_;
     const Cell up = cell_of(std::sqrt((direction.up - horizon_) / reach), above ? kUpsAbove : kUpsBelow);
-    const Cell azimuth = cell_of(0.5 * (1.0 + direction.azimuth), kAzimuths);
-    const Node* low = &nodes_[((above ? 0 : kUpsAbove) + up.index) * kAzimuths + azimuth.index];
-    const Node* high = low + kAzimuths;
+    const Cell azimuth = cell_of(0.5 * (1.0 + direction.azimuth), kSkyAzimuths);
+    const Node* low = &nodes_[((above ? 0 : kUpsAbove) + up.index) * kSkyAzimuths + azimuth.index];
+    const Node* high = low + kSkyAzimuths;
     const auto lobe = static_cast<float>(medium.haze_lobe(direction.cosine));
     float rgb[4];
     for (int c = 0; c < 4; ++c) {

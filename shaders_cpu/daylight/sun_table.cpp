@@ -6,14 +6,14 @@
 namespace strata::shaders {
 namespace {
 
-constexpr int kHeights = 80;  // as the fourth power of their number: 1 km up they lie 160 m apart
+constexpr int kSunTableHeights = 80;  // as the fourth power of their number: 1 km up they lie 160 m apart
 // As the fourth power too, from where the disc is just below the horizon, where they lie 1/60 degree apart: seen from
 // 15 km up, light that passes the Earth in haze changes tenfold in 1/20 degree.
-constexpr int kSuns = 320;
+constexpr int kSunTableSuns = 320;
 constexpr double kBelowHorizon = 0.005;
 
-double height_of(int i) {
-    const double x = static_cast<double>(i) / (kHeights - 1);
+double sun_table_height(int i) {
+    const double x = static_cast<double>(i) / (kSunTableHeights - 1);
     return kAirTop * x * x * x * x;
 }
 
@@ -55,29 +55,31 @@ Sunlight sunlight(const AirModel& medium, double height, double sun_up) {
     return {share / chords * sum.full, share / chords * sum.diffuse};
 }
 
-SunTable::SunTable(const AirModel& medium) : nodes_(kHeights * kSuns) {
-    for (int i = 0; i < kHeights; ++i) {
-        const double height = height_of(i);
+SunTable::SunTable(const AirModel& medium) : nodes_(kSunTableHeights * kSunTableSuns) {
+    for (int i = 0; i < kSunTableHeights; ++i) {
+        const double height = sun_table_height(i);
         const double floor = horizon_up(height) - kBelowHorizon;
-        for (int k = 0; k < kSuns; ++k) {
-            const double x = static_cast<double>(k) / (kSuns - 1);
+        for (int k = 0; k < kSunTableSuns; ++k) {
+            const double x = static_cast<double>(k) / (kSunTableSuns - 1);
             const Sunlight light = sunlight(medium, height, floor + (1.0 - floor) * x * x * x * x);
             for (int b = 0; b < 4; ++b) {
-                nodes_[i * kSuns + k].light[b] = static_cast<float>(light.full[b]);
-                nodes_[i * kSuns + k].light[b + 4] = static_cast<float>(light.diffuse[b]);
+                nodes_[i * kSunTableSuns + k].light[b] = static_cast<float>(light.full[b]);
+                nodes_[i * kSunTableSuns + k].light[b + 4] = static_cast<float>(light.diffuse[b]);
             }
         }
     }
 }
 
-Cell SunTable::height_cell(double height) { return cell_of(fourth_root(std::max(height, 0.0) / kAirTop), kHeights); }
+Cell SunTable::height_cell(double height) {
+    return cell_of(fourth_root(std::max(height, 0.0) / kAirTop), kSunTableHeights);
+}
 
 Sunlight SunTable::at(const Cell& height, double horizon, double sun_up) const {
     const double floor = horizon - kBelowHorizon;
     if (sun_up <= floor) return {Bands(0.0), Bands(0.0)};
-    const Cell sun = cell_of(fourth_root((sun_up - floor) / (1.0 - floor)), kSuns);
-    const Node* low = &nodes_[height.index * kSuns + sun.index];
-    const Node* high = low + kSuns;
+    const Cell sun = cell_of(fourth_root((sun_up - floor) / (1.0 - floor)), kSunTableSuns);
+    const Node* low = &nodes_[height.index * kSunTableSuns + sun.index];
+    const Node* high = low + kSunTableSuns;
     float light[8];
     for (int b = 0; b < 8; ++b)
         light[b] = blend(blend(low[0].light[b], low[1].light[b], sun.fraction),

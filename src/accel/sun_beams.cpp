@@ -13,12 +13,12 @@ namespace strata::accel {
 namespace {
 
 constexpr int kLevels = 13;  // 0 is the finest
-constexpr int kAxisBits = kLevelBits * (kLevels - 1);
-constexpr int kCodeBits = 2 * kAxisBits;       // of the code within a coarsest cell
-constexpr double kFineCells = 1 << kAxisBits;  // along a side of a coarsest cell
+constexpr int kCodeAxisBits = kLevelBits * (kLevels - 1);
+constexpr int kCodeBits = 2 * kCodeAxisBits;       // of the code within a coarsest cell
+constexpr double kFineCells = 1 << kCodeAxisBits;  // along a side of a coarsest cell
 
 // The finest cells hold about this many rays. Speed only.
-constexpr double kRaysALeaf = 40.0;
+constexpr double kShadowRaysALeaf = 40.0;
 
 // The sun must stand at least this high (sine) over a height field's plane.
 constexpr double kLeastRise = 1e-3;
@@ -62,7 +62,7 @@ SunBeams::SunBeams(const trace::Field& field, const glm::dvec3& to_sun, const gl
 }
 
 int SunBeams::level_of(double spacing) const {
-    const double finer = std::log2(top_side_ / (spacing * std::sqrt(kRaysALeaf))) / kLevelBits;
+    const double finer = std::log2(top_side_ / (spacing * std::sqrt(kShadowRaysALeaf))) / kLevelBits;
     return kLevels - 1 - static_cast<int>(std::clamp(std::ceil(finer), 0.0, kLevels - 1.0));
 }
 

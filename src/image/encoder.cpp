@@ -20,16 +20,12 @@ namespace {
 
 constexpr float kMaxHalf = 65504.0f;
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
-    throw ImageError(fmt::format("cannot write \"{}\": {}", path.string(), reason));
-}
-
 void check_shape(const std::filesystem::path& path, const PictureShape& p) {
     const bool inside =
         p.x0 >= 0 && p.y0 >= 0 && p.x0 < p.x1 && p.y0 < p.y1 && p.x1 <= p.frame_width && p.y1 <= p.frame_height;
     if (!inside)
-        fail(path, fmt::format("the crop {},{},{},{} is empty or outside the {}x{} frame", p.x0, p.y0, p.x1, p.y1,
-                               p.frame_width, p.frame_height));
+        fail_to_write(path, fmt::format("the crop {},{},{},{} is empty or outside the {}x{} frame", p.x0, p.y0, p.x1,
+                                        p.y1, p.frame_width, p.frame_height));
     check_size(path, p.width(), p.height());
 }
 
@@ -81,7 +77,7 @@ std::vector<Code> round_codes(std::span<const float> values) {
 void check_encodable(const std::filesystem::path& path, const PictureShape& shape, const Metadata& metadata,
                      const WriteOptions& options) {
     check_shape(path, shape);
-    if (const auto problem = problem_of(options.colour)) fail(path, *problem);
+    if (const auto problem = problem_of(options.colour)) fail_to_write(path, *problem);
     make_spec(path, format_of(path), shape, metadata, options);
 }
 
@@ -93,18 +89,19 @@ Encoder::Encoder(const std::filesystem::path& path, const PictureShape& shape, c
     const OIIO::ImageSpec spec = make_spec(path, format_, shape, metadata, options);
     if (format_ == Format::png) with_text_ = add_utf8_text(bytes, metadata);
     output_ = OIIO::ImageOutput::create(name_of(format_));
-    if (!output_) fail(path, OIIO::geterror());
+    if (!output_) fail_to_write(path, OIIO::geterror());
     if (!output_->set_ioproxy(with_text_ ? with_text_.get() : &bytes))
-        fail(path, "OpenImageIO cannot encode this format here");
+        fail_to_write(path, "OpenImageIO cannot encode this format here");
     const LibraryNoise noise;
-    if (!output_->open(name_of(format_), spec)) fail(path, noise.explain(output_->geterror()));
+    if (!output_->open(name_of(format_), spec)) fail_to_write(path, noise.explain(output_->geterror()));
 }
 
 int Encoder::rows_of(std::size_t values) const {
     const auto row = 3 * static_cast<std::size_t>(shape_.width());
     const int rows = static_cast<int>(values / row);
     if (values % row != 0 || rows != std::min(kStripRows, rows_left()))
-        fail(path_, fmt::format("{} values are no strip of {} rows", values, std::min(kStripRows, rows_left())));
+        fail_to_write(path_,
+                      fmt::format("{} values are no strip of {} rows", values, std::min(kStripRows, rows_left())));
     return rows;
 }
 
@@ -138,7 +135,7 @@ void Encoder::write(OIIO::TypeDesc type, const void* values, int rows) {
     const bool written = spec.tile_width > 0
                              ? output_->write_tiles(spec.x, spec.x + spec.width, y, y + rows, 0, 1, type, values)
                              : output_->write_scanlines(y, y + rows, 0, type, values);
-    if (!written) fail(path_, output_->geterror());
+    if (!written) fail_to_write(path_, output_->geterror());
 }
 
 void Encoder::write_linear(std::span<const float> rgb, std::span<const float> extra) {
@@ -172,8 +169,8 @@ void Encoder::write_exr(std::span<const float> rgb, std::span<const float> extra
     const std::size_t extra_channels = channels() - 3;
     if (extra_channels == 0) return write(OIIO::TypeDesc::FLOAT, rgb.data(), rows);
     if (extra.size() != rgb.size() / 3 * extra_channels)
-        fail(path_, fmt::format("{} values do not make {} channels beside {} pixels", extra.size(), extra_channels,
-                                rgb.size() / 3));
+        fail_to_write(path_, fmt::format("{} values do not make {} channels beside {} pixels", extra.size(),
+                                         extra_channels, rgb.size() / 3));
     std::vector<float> all;
     all.reserve(rgb.size() + extra.size());
     for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
@@ -207,7 +204,7 @@ void Encoder::copy(OIIO::ImageInput& written) {
             from.tile_width > 0
                 ? written.read_tiles(0, 0, from.x, from.x + from.width, y, y + rows, 0, 1, 0, chend, type, strip.data())
                 : written.read_scanlines(0, 0, y, y + rows, 0, 0, chend, type, strip.data());
-        if (!read) fail(path_, written.geterror());
+        if (!read) fail_to_write(path_, written.geterror());
         write(type, strip.data(), rows);
     }
 }
@@ -223,10 +220,10 @@ void Encoder::write_rows_left() {
 
 void Encoder::finish() {
     const LibraryNoise noise;
-    if (!output_->close()) fail(path_, noise.explain(output_->geterror()));
+    if (!output_->close()) fail_to_write(path_, noise.explain(output_->geterror()));
     if (not_finite_ == 0) return;
-    fail(path_, fmt::format("{} pixel{} not finite, first {}", not_finite_, not_finite_ == 1 ? " is" : "s are",
-                            first_not_finite_));
+    fail_to_write(path_, fmt::format("{} pixel{} not finite, first {}", not_finite_, not_finite_ == 1 ? " is" : "s are",
+                                     first_not_finite_));
 }
 
 std::string Encoder::clipping() const {

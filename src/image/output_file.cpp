@@ -15,25 +15,19 @@ namespace strata::image {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-    throw ImageError(fmt::format("cannot write \"{}\": {}", path.string(), reason));
-}
-
-std::string system_reason(int error) { return std::generic_category().message(error); }
-
 void check_target(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found) return;
-    if (error) fail(path, error.message());
-    if (fs::is_directory(status)) fail(path, "it is a folder");
-    if (!fs::is_regular_file(status)) fail(path, "it is not a regular file");
-    if (::access(path.c_str(), W_OK) != 0) fail(path, system_reason(errno));
+    if (error) fail_to_write(path, error.message());
+    if (fs::is_directory(status)) fail_to_write(path, "it is a folder");
+    if (!fs::is_regular_file(status)) fail_to_write(path, "it is not a regular file");
+    if (::access(path.c_str(), W_OK) != 0) fail_to_write(path, system_reason(errno));
 }
 
 void check_stream(const fs::path& path, const StreamTarget& stream, bool is_picture) {
     const std::string problem = stream_problem(stream, is_picture);
-    if (!problem.empty()) fail(path, problem);
+    if (!problem.empty()) fail_to_write(path, problem);
 }
 
 void check_folder(const fs::path& path) {
@@ -41,9 +35,9 @@ void check_folder(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(folder, error);
     if (status.type() == fs::file_type::not_found)
-        fail(path, fmt::format("the folder \"{}\" does not exist", folder.string()));
-    if (error) fail(path, error.message());
-    if (!fs::is_directory(status)) fail(path, fmt::format("\"{}\" is not a folder", folder.string()));
+        fail_to_write(path, fmt::format("the folder \"{}\" does not exist", folder.string()));
+    if (error) fail_to_write(path, error.message());
+    if (!fs::is_directory(status)) fail_to_write(path, fmt::format("\"{}\" is not a folder", folder.string()));
 }
 
 }  // namespace
@@ -54,7 +48,7 @@ OutputFile::OutputFile(const fs::path& target) : target_(target), stream_(stream
         return;
     }
     memory_ = open_memory_file();
-    if (memory_ < 0) fail(target_, system_reason(errno));
+    if (memory_ < 0) fail_to_write(target_, system_reason(errno));
 }
 
 OutputFile::~OutputFile() {
@@ -71,7 +65,7 @@ void OutputFile::write_at(std::int64_t offset, std::span<const unsigned char> by
     while (!bytes.empty()) {
         const ssize_t written = ::pwrite(descriptor(), bytes.data(), bytes.size(), offset);
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail(target_, system_reason(errno));
+        if (written < 0) fail_to_write(target_, system_reason(errno));
         bytes = bytes.subspan(static_cast<std::size_t>(written));
         offset += written;
     }
@@ -82,7 +76,7 @@ std::size_t OutputFile::read_at(std::int64_t offset, std::span<unsigned char> by
     while (done < bytes.size()) {
         const ssize_t count = ::pread(descriptor(), bytes.data() + done, bytes.size() - done, offset);
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0) fail(target_, fmt::format("what was written cannot be read: {}", system_reason(errno)));
+        if (count < 0) fail_to_write(target_, fmt::format("what was written cannot be read: {}", system_reason(errno)));
         if (count == 0) break;
         done += static_cast<std::size_t>(count);
         offset += count;
@@ -92,7 +86,7 @@ std::size_t OutputFile::read_at(std::int64_t offset, std::span<unsigned char> by
 
 void OutputFile::put_into_stream() {
     const int error = copy_to_stream(memory_, *stream_);
-    if (error != 0) fail(target_, system_reason(error));
+    if (error != 0) fail_to_write(target_, system_reason(error));
 }
 
 void OutputFile::put_in_place() {
@@ -101,7 +95,7 @@ void OutputFile::put_in_place() {
 }
 
 void OutputFile::keep(const std::string& reason) {
-    if (!scratch_) fail(target_, reason);
+    if (!scratch_) fail_to_write(target_, reason);
     scratch_->keep(reason);
 }
 
@@ -113,7 +107,7 @@ void check_writable(const fs::path& path) {
 
 void check_replaceable(const fs::path& path) {
     if (const auto stream = stream_target(path)) return check_stream(path, *stream, false);
-    if (!path.has_filename()) fail(path, "it names no file");
+    if (!path.has_filename()) fail_to_write(path, "it names no file");
     check_folder(path);
     check_target(path);
     const OutputFile probe(path);

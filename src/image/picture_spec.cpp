@@ -19,10 +19,6 @@ constexpr std::size_t kMaxDescription = 60'000;
 constexpr int kTileSide = 64;
 static_assert(kStripRows % kTileSide == 0 && kStripRows % 16 == 0, "a strip holds whole tiles, and whole zip blocks");
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
-    throw ImageError(fmt::format("cannot write \"{}\": {}", path.string(), reason));
-}
-
 void set_windows(OIIO::ImageSpec& spec, const PictureShape& shape) {
     spec.x = shape.x0;
     spec.y = shape.y0;
@@ -48,8 +44,8 @@ void set_metadata(OIIO::ImageSpec& spec, const std::filesystem::path& path, Form
     }
     const std::size_t size = pack(metadata).size();
     if (size > kMaxDescription)
-        fail(path, fmt::format("{} bytes of metadata do not fit, at most {} do; .exr and .png hold more", size,
-                               kMaxDescription));
+        fail_to_write(path, fmt::format("{} bytes of metadata do not fit, at most {} do; .exr and .png hold more", size,
+                                        kMaxDescription));
     spec.attribute("ImageDescription", pack(with_digest));
 }
 
@@ -89,7 +85,7 @@ OIIO::ImageSpec make_spec(const std::filesystem::path& path, Format format, cons
     OIIO::ImageSpec spec(shape.width(), shape.height(), 3, pixel_type(format, options.exr_format));
     const bool linear = format == Format::exr;
     // An EXR gives them back sorted; rows are copied as they come.
-    if (!std::ranges::is_sorted(options.exr_extra)) fail(path, "channels that are not sorted");
+    if (!std::ranges::is_sorted(options.exr_extra)) fail_to_write(path, "channels that are not sorted");
     if (linear && !options.exr_extra.empty()) add_channels(spec, options.exr_extra);
     const bool windows = linear || format == Format::tiff;
     if (windows) set_windows(spec, shape);

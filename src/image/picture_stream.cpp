@@ -15,7 +15,6 @@
 #include "src/image/output_file.h"
 
 namespace strata::image {
-namespace {
 
 // Encoders do not stop well when they cannot write: they are told that they could, and flush_or_throw() tells. They
 // write headers byte by byte, which are gathered here.
@@ -70,8 +69,6 @@ class FileProxy final : public OIIO::Filesystem::IOProxy {
     std::int64_t size_ = 0;
     std::exception_ptr failure_;
 };
-
-}  // namespace
 
 struct PictureStream::State {
     State(std::unique_ptr<OutputFile> file, const PictureShape& picture_shape, const Metadata& metadata,

@@ -20,12 +20,6 @@ namespace strata::image {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-    throw ImageError(fmt::format("cannot write \"{}\": {}", path.string(), reason));
-}
-
-std::string system_reason(int error) { return std::generic_category().message(error); }
-
 // Short, so that it fits wherever the target does; hidden, so that a glob for pictures does not meet it. 60 random
 // bits: numbers of processes are the same in other containers and on other machines.
 std::string random_name() {
@@ -69,7 +63,7 @@ ScratchFile::ScratchFile(const fs::path& target, bool is_second)
         is_beside_ = false;
         if (open_in(temporary_place()) == 0) error = 0;
     }
-    if (error != 0) fail(target, fmt::format("no new file in its folder: {}", system_reason(error)));
+    if (error != 0) fail_to_write(target, fmt::format("no new file in its folder: {}", system_reason(error)));
     remember_scratch_file(hidden_.c_str());
 }
 
@@ -108,7 +102,7 @@ ScratchFile::~ScratchFile() {
 }
 
 void ScratchFile::place() {
-    if (const int error = settle(descriptor_)) fail(typed_, system_reason(error));
+    if (const int error = settle(descriptor_)) fail_to_write(typed_, system_reason(error));
     const int error = move_into_place();
     if (error == 0) return check_folder_stayed();
     // A link that was made meanwhile leads elsewhere; a folder or hidden file that is gone can be made again.
@@ -133,8 +127,8 @@ int ScratchFile::move_into_place() {
 
 void ScratchFile::check_folder_stayed() {
     if (has_folder()) return;
-    fail(typed_, fmt::format("its folder was moved meanwhile; the whole file is \"{}\"",
-                             (folder_now() / target_.filename()).string()));
+    fail_to_write(typed_, fmt::format("its folder was moved meanwhile; the whole file is \"{}\"",
+                                      (folder_now() / target_.filename()).string()));
 }
 
 // The file that is there keeps all that its owner set.
@@ -163,9 +157,9 @@ void ScratchFile::keep(const std::string& reason) {
     fs::path kept = keep_in_folder();
     if (kept.empty()) kept = keep_elsewhere();
     if (kept.empty() && ::faccessat(folder_, name_.c_str(), F_OK, 0) == 0) kept = folder_now() / name_;
-    if (kept.empty()) fail(typed_, reason);
+    if (kept.empty()) fail_to_write(typed_, reason);
     is_done_ = true;
-    fail(typed_, fmt::format("{}; the whole file is \"{}\"", reason, kept.string()));
+    fail_to_write(typed_, fmt::format("{}; the whole file is \"{}\"", reason, kept.string()));
 }
 
 fs::path ScratchFile::keep_in_folder() {

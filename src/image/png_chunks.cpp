@@ -9,7 +9,7 @@
 namespace strata::image {
 namespace {
 
-constexpr std::size_t kTypeSize = 4, kCheckSize = 4;
+constexpr std::size_t kTypeSize = 4, kChunkCheckSize = 4;
 
 std::string big_endian(std::uint32_t number) {
     std::string bytes;
@@ -59,7 +59,7 @@ std::optional<std::string> find_png_chunk(const std::filesystem::path& png, std:
             if (!file.read(data.data(), static_cast<std::streamsize>(length))) return std::nullopt;
             return data;
         }
-        file.seekg(static_cast<std::streamoff>(length) + static_cast<std::streamoff>(kCheckSize), std::ios::cur);
+        file.seekg(static_cast<std::streamoff>(length) + static_cast<std::streamoff>(kChunkCheckSize), std::ios::cur);
     }
     return std::nullopt;
 }

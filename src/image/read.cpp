@@ -25,10 +25,6 @@ namespace strata::image {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-    throw ImageError(fmt::format("cannot read \"{}\": {}", path.string(), reason));
-}
-
 struct Signature {
     std::string_view bytes;
     Format format;
@@ -50,7 +46,7 @@ std::optional<Format> sniff(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::array<char, 8> buffer{};
     file.read(buffer.data(), buffer.size());
-    if (file.bad()) fail(path, std::generic_category().message(errno != 0 ? errno : EIO));
+    if (file.bad()) fail_to_read(path, std::generic_category().message(errno != 0 ? errno : EIO));
     const std::string_view start(buffer.data(), static_cast<std::size_t>(file.gcount()));
     for (const Signature& signature : kSignatures)
         if (start.starts_with(signature.bytes)) return signature.format;
@@ -60,12 +56,12 @@ std::optional<Format> sniff(const fs::path& path) {
 void check_readable(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    if (status.type() == fs::file_type::not_found) fail(path, "it does not exist");
-    if (error) fail(path, error.message());
-    if (fs::is_directory(status)) fail(path, "it is a folder");
+    if (status.type() == fs::file_type::not_found) fail_to_read(path, "it does not exist");
+    if (error) fail_to_read(path, error.message());
+    if (fs::is_directory(status)) fail_to_read(path, "it is a folder");
     errno = 0;
     if (std::ifstream(path)) return;
-    fail(path, errno == 0 || errno == EACCES ? "it may not be read" : std::generic_category().message(errno));
+    fail_to_read(path, errno == 0 || errno == EACCES ? "it may not be read" : std::generic_category().message(errno));
 }
 
 struct OpenPicture {
@@ -78,14 +74,14 @@ struct OpenPicture {
 OpenPicture open_picture(const fs::path& path) {
     check_readable(path);
     const std::optional<Format> format = sniff(path);
-    if (!format) fail(path, "it is no EXR, PNG, TIFF or JPEG picture");
+    if (!format) fail_to_read(path, "it is no EXR, PNG, TIFF or JPEG picture");
     configure_library();
     OpenPicture opened{std::make_unique<LibraryNoise>(), *format, OIIO::ImageInput::create(name_of(*format)), {}};
-    if (!opened.input) fail(path, OIIO::geterror());
+    if (!opened.input) fail_to_read(path, OIIO::geterror());
     OIIO::ImageSpec request;
     request.attribute("oiio:UnassociatedAlpha", 1);  // OpenImageIO would multiply codes, not light
     if (!opened.input->open(path.string(), opened.spec, request))
-        fail(path, opened.noise->explain(opened.input->geterror()));
+        fail_to_read(path, opened.noise->explain(opened.input->geterror()));
     return opened;
 }
 
@@ -120,9 +116,9 @@ Metadata metadata_of(const OpenPicture& opened) {
 // finds.
 void refuse_damaged(const fs::path& path, const OpenPicture& opened) {
     const Integrity integrity = check_digest(path, opened.format, metadata_of(opened).find(kDigestKey));
-    if (integrity == Integrity::damaged) fail(path, "it is damaged: its bytes are not those that were written");
+    if (integrity == Integrity::damaged) fail_to_read(path, "it is damaged: its bytes are not those that were written");
     if (integrity == Integrity::whole || opened.format != Format::tiff) return;
-    if (const auto damage = find_deflate_damage(path)) fail(path, *damage);
+    if (const auto damage = find_deflate_damage(path)) fail_to_read(path, *damage);
 }
 
 struct StoredPicture {
@@ -141,10 +137,10 @@ StoredPicture read_stored(const fs::path& path, const OpenPicture& opened, const
     float* const target = is_plain ? rgb.data() : all.data();
     // OpenImageIO 2.4 "reads" them as zeros.
     if (opened.format == Format::tiff && opened.spec.format == OIIO::TypeDesc::DOUBLE)
-        fail(path, "its values are floating point of 64 bits; allowed: 16 or 32, or whole numbers");
+        fail_to_read(path, "its values are floating point of 64 bits; allowed: 16 or 32, or whole numbers");
     // A TIFF that lacks strips is "read", with an error pending.
     const bool done = opened.input->read_image(0, 0, begin, end, OIIO::TypeDesc::FLOAT, target);
-    if (!done || opened.input->has_error()) fail(path, opened.noise->explain(opened.input->geterror()));
+    if (!done || opened.input->has_error()) fail_to_read(path, opened.noise->explain(opened.input->geterror()));
     if (is_plain) return stored;
     const auto place = [&](int channel) { return static_cast<std::size_t>(channel - begin); };
     for (std::size_t i = 0; i < stored.picture.pixels(); ++i) {
@@ -183,9 +179,10 @@ Picture read_linear(const fs::path& path, const ColourOut& written_with) {
     const bool is_linear = transfer.curve == Transfer::Curve::linear;
     const auto obstacle = obstacle_to_light(written_with);
     if (!is_linear && obstacle)
-        fail(path, fmt::format("{} is in its codes, which are no linear radiance any more; allowed: the same render as "
-                               "EXR, or a PNG, TIFF or JPEG of film.tone none and film.saturation 1",
-                               *obstacle));
+        fail_to_read(
+            path, fmt::format("{} is in its codes, which are no linear radiance any more; allowed: the same render as "
+                              "EXR, or a PNG, TIFF or JPEG of film.tone none and film.saturation 1",
+                              *obstacle));
     const ColourChannels channels = colour_channels(path, opened.spec);
     StoredPicture stored = read_stored(path, opened, channels);
     if (is_linear && (stored.alpha.empty() || channels.is_associated)) return std::move(stored.picture);

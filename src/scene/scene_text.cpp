@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "src/scene/scene_error.h"
+#include "src/scene/typed_number.h"
 
 namespace strata::scene {
 
@@ -37,8 +38,6 @@ std::optional<Fault> find_binary(std::string_view text) {
         fmt::format("not text (byte {:#04x}), allowed: a scene file in TOML", static_cast<unsigned char>(*found));
     return fault;
 }
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 bool is_bare(char c) {
     return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-' || c == '+';

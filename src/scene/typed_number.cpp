@@ -6,8 +6,6 @@ namespace strata::scene {
 
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 std::string_view without_sign(std::string_view text) {
     return text.substr(!text.empty() && (text.front() == '+' || text.front() == '-') ? 1 : 0);
 }

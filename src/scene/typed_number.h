@@ -11,6 +11,8 @@
 
 namespace strata::scene {
 
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }  // in every locale
+
 // A decimal number that fills the whole text. Nothing for what is no number, is not finite or beyond double; the point
 // is a point in every locale.
 std::optional<double> typed_number(std::string_view text);

@@ -16,7 +16,7 @@
 #include "noise/relief/nodes/all.h"
 #include "noise/relief/stripe.h"
 #include "src/trace/enclosure_rules-inl.h"
-#include "src/trace/relief_plan.h"
+#include "src/trace/relief_enclosure-inl.h"
 #include "src/trace/stripe-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -251,9 +251,8 @@ class LaneNumbers : public noise::ReliefFrame, public EnclosureRules {
     std::size_t index_;
 };
 
-// The whole relief at a vector of points, reach a bound of their coordinates.
 template <bool kPlanar>
-HWY_INLINE Enclosure enclose(const ReliefPlan& plan, const WidePoint& x, double reach, const ReliefPoints& points) {
+Enclosure enclose(const ReliefPlan& plan, const WidePoint& x, double reach, const ReliefPoints& points) {
     Enclosure all =
         LaneNumbers<kPlanar>::of(plan, plan.relief->parts().size() - 1, LaneNumbers<kPlanar>::domain(x, reach), points);
     // Of broken lanes nothing is known, at any distance.

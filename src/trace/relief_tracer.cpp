@@ -10,11 +10,10 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#define STRATA_RELIEF_FORMULAS
 #include "src/trace/lane_bits-inl.h"
 #include "src/trace/lower_bound-inl.h"
 #include "src/trace/packet-inl.h"
-#include "src/trace/relief_lanes-inl.h"
+#include "src/trace/relief_enclosure-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::trace::HWY_NAMESPACE {

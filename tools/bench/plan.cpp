@@ -15,7 +15,7 @@ namespace strata::tools::bench {
 
 namespace {
 
-struct Size {
+struct FrameSize {
     int width, height;
 };
 
@@ -40,18 +40,19 @@ class Planner {
         if (plan_.settings.whole) limits.rays = kAll;
         return limits;
     }
-    Size table_size() const { return plan_.settings.quick ? Size{480, 270} : Size{1920, 1080}; }
+    FrameSize table_size() const { return plan_.settings.quick ? FrameSize{480, 270} : FrameSize{1920, 1080}; }
     int table_N() const { return plan_.settings.quick ? 4 : 10; }
-    std::vector<Size> sizes() const {
-        return plan_.settings.quick ? std::vector<Size>{{480, 270}} : std::vector<Size>{{480, 270}, {1920, 1080}};
+    std::vector<FrameSize> sizes() const {
+        return plan_.settings.quick ? std::vector<FrameSize>{{480, 270}}
+                                    : std::vector<FrameSize>{{480, 270}, {1920, 1080}};
     }
     std::vector<int> Ns() const { return plan_.settings.quick ? std::vector{2, 4} : std::vector{2, 4, 10}; }
 
     // Its id.
     std::string add(const Case& wanted);
-    std::string add(const Variant& variant, Size size, int N);
-    std::string add_reference(Size size);
-    std::string add_whole(const Variant& variant, Size size, int N, int threads);
+    std::string add(const Variant& variant, FrameSize size, int N);
+    std::string add_reference(FrameSize size);
+    std::string add_whole(const Variant& variant, FrameSize size, int N, int threads);
 
     void figures();
     void scenes();
@@ -65,7 +66,7 @@ class Planner {
     Plan plan_;
 };
 
-Case sized(const Variant& variant, Size size, int N) {
+Case sized(const Variant& variant, FrameSize size, int N) {
     Case made{variant.name, variant.scene, {}};
     made.scene.film.width = size.width;
     made.scene.film.height = size.height;
@@ -80,13 +81,13 @@ std::string Planner::add(const Case& wanted) {
     return id;
 }
 
-std::string Planner::add(const Variant& variant, Size size, int N) {
+std::string Planner::add(const Variant& variant, FrameSize size, int N) {
     Case made = sized(variant, size, N);
     made.subset = subset_of(size.width, size.height, std::int64_t{1} * N * N, limits(), variant.block_seeds);
     return add(made);
 }
 
-std::string Planner::add_whole(const Variant& variant, Size size, int N, int threads) {
+std::string Planner::add_whole(const Variant& variant, FrameSize size, int N, int threads) {
     Case made = sized(variant, size, N);
     if (threads == 1) made.scene_name += ", in one piece";
     made.subset = {{{0, 0, size.width, size.height}}, 0};
@@ -94,7 +95,7 @@ std::string Planner::add_whole(const Variant& variant, Size size, int N, int thr
     return add(made);
 }
 
-std::string Planner::add_reference(Size size) {
+std::string Planner::add_reference(FrameSize size) {
     Case made = sized(hyperterrain(), size, 1);
     made.tracer = integrate::Tracer::reference;
     const int blocks = plan_.settings.rays ? 1 : plan_.settings.quick ? 12 : kReferenceBlocks;
@@ -103,7 +104,7 @@ std::string Planner::add_reference(Size size) {
 }
 
 void Planner::figures() {
-    const Size size = table_size();
+    const FrameSize size = table_size();
     FigureCases& f = plan_.figures;
     f.main = add(hyperterrain(), size, table_N());
     f.few_samples = add(hyperterrain(), size, 2);
@@ -123,7 +124,7 @@ void Planner::scenes() {
     for (const Variant& variant :
          {hyperterrain(), hyperterrain_planar(), hyperterrain_shadows(), hyperterrain_octaves(16),
           hyperterrain_shared(), terrain(), isosurface(), planet(), planet_turning(), flyover_moving()}) {
-        for (const Size& size : sizes()) {
+        for (const FrameSize& size : sizes()) {
             for (const int N : Ns()) add(variant, size, N);
         }
     }
@@ -140,7 +141,7 @@ void Planner::octaves() {
 }
 
 void Planner::samples() {
-    for (const Size& size : sizes()) {
+    for (const FrameSize& size : sizes()) {
         Curve curve{Section::samples, "N", fmt::format("{}×{}", size.width, size.height), {}};
         std::vector<int> counts{1, 2, 3, 4, 6, 10};
         if (plan_.settings.quick) counts = {1, 2, 4, 6};
@@ -150,11 +151,11 @@ void Planner::samples() {
 }
 
 void Planner::resolution() {
-    std::vector<Size> all{{240, 135}, {480, 270}, {960, 540}, {1920, 1080}, {3840, 2160}};
+    std::vector<FrameSize> all{{240, 135}, {480, 270}, {960, 540}, {1920, 1080}, {3840, 2160}};
     if (plan_.settings.quick) all.resize(3);
     for (const int N : {2, 4}) {
         Curve curve{Section::resolution, "frame's width / px", fmt::format("N = {}", N), {}};
-        for (const Size& size : all) {
+        for (const FrameSize& size : all) {
             curve.points.push_back({1.0 * size.width, add(hyperterrain(), size, N)});
         }
         plan_.curves.push_back(curve);
@@ -164,19 +165,19 @@ void Planner::resolution() {
 // One piece, as a user renders it: the threads share a frame, not blocks.
 void Planner::threads() {
     if (parallel::available_processors() < 2) return;
-    const Size size = plan_.settings.quick || plan_.settings.rays ? Size{480, 270} : Size{1920, 1080};
+    const FrameSize size = plan_.settings.quick || plan_.settings.rays ? FrameSize{480, 270} : FrameSize{1920, 1080};
     FigureCases& f = plan_.figures;
     f.one_thread = add_whole(hyperterrain(), size, 2, 1);
     f.two_threads = add_whole(hyperterrain(), size, 2, 2);
 }
 
 void Planner::reference() {
-    for (const Size& size : sizes()) plan_.figures.reference = add_reference(size);
+    for (const FrameSize& size : sizes()) plan_.figures.reference = add_reference(size);
 }
 
 // At N = 2 whole frames are cheap: each scene once whole, and once in the blocks that larger N are measured in.
 void Planner::subset() {
-    const Size size = table_size();
+    const FrameSize size = table_size();
     const std::int64_t samples = std::int64_t{1} * table_N() * table_N();
     for (const Variant& variant : {hyperterrain(), hyperterrain_planar(), hyperterrain_shadows(),
                                    hyperterrain_octaves(16), terrain(), isosurface(), planet(), flyover()}) {

@@ -10,7 +10,7 @@ namespace strata::tools::bench {
 
 namespace {
 
-using Quantity = std::function<double(const Measurement&)>;
+using Measure = std::function<double(const Measurement&)>;
 
 const char* title_of(Section section) {
     switch (section) {
@@ -23,7 +23,7 @@ const char* title_of(Section section) {
     }
 }
 
-PlotSeries series_of(const Results& results, const Curve& curve, const Quantity& quantity) {
+PlotSeries series_of(const Results& results, const Curve& curve, const Measure& quantity) {
     PlotSeries series;
     series.name = curve.name;
     series.style = PlotStyle::line_points;
@@ -49,7 +49,7 @@ void set_axis(PlotPanel& panel, const std::string& label) {
     panel.x.max = all.back() * 1.15;
 }
 
-void add_panel(Plot& plot, const Results& results, Section section, const std::string& what, const Quantity& quantity) {
+void add_panel(Plot& plot, const Results& results, Section section, const std::string& what, const Measure& quantity) {
     PlotPanel panel;
     std::string axis;
     for (const Curve& curve : results.plan.curves) {

@@ -11,6 +11,7 @@
 
 namespace strata::tools::figures {
 
+namespace figure_1 {
 namespace {
 
 constexpr int kOrders[] = {1, 2, 3, 4, 8, 15};
@@ -156,7 +157,8 @@ void draw(const Plan& plan, Pictures, const std::filesystem::path& folder) {
 }
 
 }  // namespace
+}  // namespace figure_1
 
-const Figure kFigure1{1, true, plan, draw};
+const Figure kFigure1{1, true, figure_1::plan, figure_1::draw};
 
 }  // namespace strata::tools::figures

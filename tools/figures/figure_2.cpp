@@ -11,6 +11,7 @@
 
 namespace strata::tools::figures {
 
+namespace figure_2 {
 namespace {
 
 constexpr int kOrders[] = {2, 3, 4, 8, 15};
@@ -154,7 +155,8 @@ void draw(const Plan& plan, Pictures, const std::filesystem::path& folder) {
 }
 
 }  // namespace
+}  // namespace figure_2
 
-const Figure kFigure2{2, true, plan, draw};
+const Figure kFigure2{2, true, figure_2::plan, figure_2::draw};
 
 }  // namespace strata::tools::figures

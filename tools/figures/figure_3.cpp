@@ -12,6 +12,7 @@
 
 namespace strata::tools::figures {
 
+namespace figure_3 {
 namespace {
 
 using scene::EstimatorKind;
@@ -153,7 +154,8 @@ void draw(const Plan& plan, Pictures, const std::filesystem::path& folder) {
 }
 
 }  // namespace
+}  // namespace figure_3
 
-const Figure kFigure3{3, true, plan, draw};
+const Figure kFigure3{3, true, figure_3::plan, figure_3::draw};
 
 }  // namespace strata::tools::figures

@@ -7,6 +7,7 @@
 
 namespace strata::tools::figures {
 
+namespace figure_4 {
 namespace {
 
 constexpr int kSide = 320;  // px, at size paper
@@ -103,7 +104,8 @@ void draw(const Plan& plan, Pictures pictures, const std::filesystem::path& fold
 }
 
 }  // namespace
+}  // namespace figure_4
 
-const Figure kFigure4{4, false, plan, draw};
+const Figure kFigure4{4, false, figure_4::plan, figure_4::draw};
 
 }  // namespace strata::tools::figures

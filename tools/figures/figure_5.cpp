@@ -8,6 +8,7 @@
 
 namespace strata::tools::figures {
 
+namespace figure_5 {
 namespace {
 
 constexpr image::Colour kFrame{1.0f, 0.72f, 0.0f};  // on dark and on bright ground
@@ -55,7 +56,8 @@ void draw(const Plan& plan, Pictures pictures, const std::filesystem::path& fold
 }
 
 }  // namespace
+}  // namespace figure_5
 
-const Figure kFigure5{5, false, plan, draw};
+const Figure kFigure5{5, false, figure_5::plan, figure_5::draw};
 
 }  // namespace strata::tools::figures

@@ -4,6 +4,7 @@
 
 namespace strata::tools::figures {
 
+namespace figure_6 {
 namespace {
 
 const DetailColumn kColumns[] = {{"none", "no anti-aliasing", false},
@@ -33,7 +34,8 @@ void draw(const Plan& plan, Pictures pictures, const std::filesystem::path& fold
 }
 
 }  // namespace
+}  // namespace figure_6
 
-const Figure kFigure6{6, false, plan, draw};
+const Figure kFigure6{6, false, figure_6::plan, figure_6::draw};
 
 }  // namespace strata::tools::figures

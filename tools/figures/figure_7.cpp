@@ -4,6 +4,7 @@
 
 namespace strata::tools::figures {
 
+namespace figure_7 {
 namespace {
 
 const DetailColumn kColumns[] = {{"none", "no anti-aliasing", false},
@@ -35,7 +36,8 @@ void draw(const Plan& plan, Pictures pictures, const std::filesystem::path& fold
 }
 
 }  // namespace
+}  // namespace figure_7
 
-const Figure kFigure7{7, false, plan, draw};
+const Figure kFigure7{7, false, figure_7::plan, figure_7::draw};
 
 }  // namespace strata::tools::figures

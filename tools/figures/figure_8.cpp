@@ -12,6 +12,7 @@
 
 namespace strata::tools::figures {
 
+namespace figure_8 {
 namespace {
 
 constexpr int kSide = 300;  // px, at size paper
@@ -130,6 +131,7 @@ void draw(const Plan& plan, Pictures pictures, const std::filesystem::path& fold
 }
 
 }  // namespace
+}  // namespace figure_8
 
 scene::Scene wheel_scene(double spoke_Hz, int time_order, int frame, int side) {
     scene::Scene scene = builtin("wheel");
@@ -149,6 +151,6 @@ double wheel_gain(double spoke_Hz, int time_order) {
     return std::pow(std::abs(std::sin(x) / x), time_order);
 }
 
-const Figure kFigure8{8, false, plan, draw};
+const Figure kFigure8{8, false, figure_8::plan, figure_8::draw};
 
 }  // namespace strata::tools::figures

@@ -89,12 +89,25 @@ show_step() {
 }
 hide_step() { ! can_erase || printf '\r\033[K' >&2; }
 
+# Copies what ninja says and shows how far it is, once a second even where one source takes longer.
 follow_ninja() { # what
-    local line
-    while IFS= read -r line; do
-        printf '%s\n' "$line"
-        [[ ! $line =~ ^\[[0-9]+/[0-9]+\] ]] || show_step "building $1 ${BASH_REMATCH[0]}"
+    local text='' part steps=0/0 start=$SECONDS status=0
+    while ((status == 0 || status > 128)); do # above 128: the second is over, and `part` may be half a line
+        IFS= read -r -t 1 part
+        status=$?
+        text+=$part
+        if ((status <= 128)) && [[ $text || $status == 0 ]]; then
+            printf '%s\n' "$text"
+            [[ ! $text =~ ^\[([0-9]+/[0-9]+)\] ]] || steps=${BASH_REMATCH[1]}
+            text=''
+        fi
+        show_progress "$1" "$steps" $((SECONDS - start))
     done
+}
+
+show_progress() { # what done/all seconds
+    local share=$((100 * ${2%/*} / (${2#*/} > 0 ? ${2#*/} : 1)))
+    show_step "building $1: $share %, ${2%/*} of ${2#*/} steps, $(($3 / 60)):$(printf %02d $(($3 % 60)))"
 }
 
 compile() { # folder what target...

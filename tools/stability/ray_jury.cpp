@@ -17,8 +17,6 @@ namespace {
 // Probes of the walk along one ray, so that a run ends in time; a ray that is cut short counts as judged so far.
 constexpr long kMostProbes = 60000;
 
-oracle::Vec as_vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
 }  // namespace
 
 RayJury::RayJury(const SceneSpec& spec, const Settings& settings, std::uint32_t step_limit)
@@ -80,7 +78,7 @@ void RayJury::judge_claim(const trace::Ray& ray, const trace::Hit& hit, double d
     const bool is_hit = hit.state == trace::HitState::hit;
     hits_ += is_hit;
     const auto delta = [&](double s) { return ray.delta0 + ray.delta_slope * s; };
-    const oracle::Vec origin = as_vec(ray.origin), direction = as_vec(ray.direction);
+    const oracle::Vec origin = oracle::as_vec(ray.origin), direction = oracle::as_vec(ray.direction);
     const trace::Interval inside = image_.field().clip(ray.origin, ray.direction, ray.limit);
     const double farthest = is_hit ? hit.s : std::min(ray.limit, std::max(inside.end, 0.0));
     const double open =

@@ -16,8 +16,6 @@ namespace {
 
 enum class Light { lit, shadowed, unsure };
 
-oracle::Vec as_vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
 // One pixel's way to the sun, as the renderer goes it.
 struct Decision {
     WorldRay pixel;
@@ -54,14 +52,14 @@ class ShadowOracle {
   public:
     explicit ShadowOracle(const scene::Surface& surface) : field_(oracle::shape_of(surface)) {}
 
-    double value(const glm::dvec3& x) const { return field_.value<double>(as_vec(x)); }
+    double value(const glm::dvec3& x) const { return field_.value<double>(oracle::as_vec(x)); }
 
     // shadowed: a stretch inside that is longer than delta; lit: none is met.
     Light towards_sun(const trace::Ray& to_sun, const glm::dvec3& from) const {
         if (value(from) <= 0.0) return Light::unsure;
         const auto delta = [&](double s) { return to_sun.delta0 + to_sun.delta_slope * s; };
-        const oracle::Verdict verdict = oracle::judge_ray(field_, as_vec(from), as_vec(to_sun.direction), to_sun.limit,
-                                                          delta, {false, 0.0}, 100000);
+        const oracle::Verdict verdict = oracle::judge_ray(
+            field_, oracle::as_vec(from), oracle::as_vec(to_sun.direction), to_sun.limit, delta, {false, 0.0}, 100000);
         if (verdict.missed) return Light::shadowed;
         return verdict.thickest > 0.0 || verdict.cut_short ? Light::unsure : Light::lit;
     }

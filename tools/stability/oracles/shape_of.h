@@ -6,6 +6,8 @@
 
 namespace strata::oracle {
 
+inline Vec as_vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
 inline Shape shape_of(const scene::Surface& s, double time = 0.0) {
     Shape shape;
     shape.kind = static_cast<Kind>(s.kind);

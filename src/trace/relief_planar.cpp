@@ -1,0 +1,16 @@
+// The formulas of reliefs of height fields, whose noise is 2-D, compiled once for each SIMD target.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/trace/relief_planar.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#define STRATA_RELIEF_FORMULAS
+#include "src/trace/relief_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::trace::HWY_NAMESPACE {
+
+template Enclosure enclose<true>(const ReliefPlan&, const WidePoint&, double, const ReliefPoints&);
+
+}  // namespace strata::trace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
