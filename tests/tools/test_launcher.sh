@@ -134,6 +134,13 @@ TEXT
     echo 'add_executable(strata strata.cpp)' >"$clone/tools/CMakeLists.txt"
 }
 
+check_progress() {
+    write_program two
+    expect_match 'on a terminal a build tells how far it is, and clears the line' \
+        "$(TERM=xterm script -qec "'$strata'" /dev/null </dev/null)" \
+        $'*building strata: 50 %, 1 of 2 steps, 0:0*\r\e[Ktwo.3*'
+}
+
 check_failures() {
     local said status
     echo 'int main() { return nonsense; }' >"$clone/tools/strata.cpp"
@@ -221,6 +228,7 @@ check_first_start
 check_pass_through
 check_folders
 check_rebuilds
+check_progress
 check_failures
 check_moves
 check_packages

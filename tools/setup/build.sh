@@ -91,7 +91,7 @@ hide_step() { ! can_erase || printf '\r\033[K' >&2; }
 
 # Copies what ninja says and shows how far it is, once a second even where one source takes longer.
 follow_ninja() { # what
-    local text='' part steps=0/0 start=$SECONDS status=0
+    local text='' part steps='' start=$SECONDS status=0
     while ((status == 0 || status > 128)); do # above 128: the second is over, and `part` may be half a line
         IFS= read -r -t 1 part
         status=$?
@@ -101,12 +101,12 @@ follow_ninja() { # what
             [[ ! $text =~ ^\[([0-9]+/[0-9]+)\] ]] || steps=${BASH_REMATCH[1]}
             text=''
         fi
-        show_progress "$1" "$steps" $((SECONDS - start))
+        [[ ! $steps ]] || show_progress "$1" "$steps" $((SECONDS - start))
     done
 }
 
 show_progress() { # what done/all seconds
-    local share=$((100 * ${2%/*} / (${2#*/} > 0 ? ${2#*/} : 1)))
+    local share=$((100 * ${2%/*} / ${2#*/}))
     show_step "building $1: $share %, ${2%/*} of ${2#*/} steps, $(($3 / 60)):$(printf %02d $(($3 % 60)))"
 }
 
