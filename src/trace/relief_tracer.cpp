@@ -86,7 +86,8 @@ HWY_INLINE ReliefStep relief_step(const Field& field, const TracePlan& constants
     if (!hn::AllFalse(d, settled)) {
         settle_relief(field, packet, x, settled, step.f, counters);
         // What is known of the point says nothing of those about it, but for what the global Lipschitz constant does:
-        // without it a ray whose tolerance begins at 0 would stay for ever at a start that float cannot tell from a hit.
+        // without it a ray whose tolerance begins at 0 would stay for ever at a start that float cannot tell from a
+        // hit.
         lower = hn::IfThenZeroElse(settled, lower);
         const FloatVec slowest = set(constants.inverse_lipschitz * static_cast<float>(kRoundDown));
         least = hn::IfThenElseZero(settled, hn::Mul(hn::Max(step.f, zero), slowest));
