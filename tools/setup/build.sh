@@ -15,6 +15,11 @@ options=()
 builds=${STRATA_BUILD_DIR:-$root/.build}
 [[ $builds == /* ]] || builds=$PWD/$builds
 
+# What another folder or clone has compiled is not compiled again, where ccache is there and nothing else was chosen.
+if [[ ! ${CMAKE_CXX_COMPILER_LAUNCHER+chosen} ]] && command -v ccache >/dev/null; then
+    export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$root
+fi
+
 say() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
 
 die() {
