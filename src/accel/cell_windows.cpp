@@ -9,17 +9,20 @@ namespace strata::accel {
 
 namespace {
 
-// Speed only, as all constants here but the last: near the surface a window's error in f is about kNearError of
-// what f falls by over a tolerance, its slope taken to be no less than kLeastSlope; elsewhere kFarError of f.
-constexpr double kNearError = 0.2;
+// Speed only, as all constants here but the last. A window's error leaves its rays' hits in a bracket of about error /
+// slope, which landings (src/trace/landing.h) narrow where it is well below sqrt(slope / D), D the bound of the third
+// derivative over 6: kNearError is that part. Far from the surface the error may be kFarError of f. Slopes are taken to
+// be no less than kLeastSlope.
+constexpr double kNearError = 0.3;
+constexpr double kFarError = 0.2;
 constexpr double kLeastSlope = 0.1;
-constexpr double kFarError = 0.15;
 
-// A window does not lead further than to where f should have fallen by this part.
-constexpr double kFall = 0.35;
+// A window does not lead much further than to where f should have fallen by this part.
+constexpr double kFall = 0.6;
 
-// Windows narrower than so many radii of the beam are not worth it.
-constexpr double kLeastWidth = 1.2;
+// Windows narrower than so many radii of the beam are not worth it; those of so many radii always are.
+constexpr double kLeastWidth = 1.15;
+constexpr double kWide = 2.0;
 
 // Windows of one cell at most: rays that need more are few, or near no surface.
 constexpr int kMostWindows = 8;
@@ -33,15 +36,13 @@ double radius_at(const trace::Beam& beam, double s) { return beam.radius0 + beam
 
 // No octaves where no window is worth it.
 trace::WindowPlan::Size CellWindows::next_size(const WindowChain& chain) const {
+    if (!(plan_.cube() > 0.0)) return {};
     const double beam_radius = radius_at(chain.cell->beam, chain.s);
-    trace::WindowPlan::Size size;
-    if (chain.clearance > 0.0) {
-        size = plan_.size(kFarError * chain.clearance);
-        if (chain.slope < 0.0) size.radius = std::min(size.radius, kFall * chain.clearance / -chain.slope);
-    }
-    if (size.radius < kLeastWidth * beam_radius) {
-        const double slope = std::clamp(std::abs(chain.slope), kLeastSlope, 1.0);
-        size = plan_.size(kNearError * tolerance_ * chain.s * slope);
+    const double slope = std::max(std::abs(chain.slope), kLeastSlope);
+    const double near = kNearError * slope * std::sqrt(slope / plan_.cube());
+    trace::WindowPlan::Size size = plan_.size(std::max(near, kFarError * chain.clearance));
+    if (chain.clearance > 0.0 && chain.slope < 0.0) {
+        size.radius = std::min(size.radius, std::max(kFall * chain.clearance / -chain.slope, kWide * beam_radius));
     }
     return size.radius > kLeastWidth * beam_radius ? size : trace::WindowPlan::Size{};
 }
@@ -103,13 +104,12 @@ bool CellWindows::goes_on(WindowChain& chain, const trace::Window& window) const
     const double end = f + slope * chain.half;
     chain.slope = slope;
     chain.clearance = std::max(end - spread, 0.0);
-    const bool have_hit = end + spread < 0.0;
+    chain.hits = end + spread < 0.0;
     const bool leave = slope > 0.0 && f > spread;
-    return !have_hit && !leave && chain.length < kMostWindows;
+    return !chain.hits && !leave && chain.length < kMostWindows;
 }
 
 void CellWindows::build(WindowChains& out, trace::TraceCounters& counters) const {
-    out.windows.clear();
     out.open.clear();
     for (std::uint32_t i = 0; i < out.chains.size(); ++i) {
         if (out.chains[i].cell != nullptr) out.open.push_back(i);

@@ -25,6 +25,7 @@ struct WindowChain {
     std::uint32_t first = 0;         // windows[first] is the first of the chain, windows[last] the last
     std::uint32_t last = 0;
     int length = 0;
+    bool hits = false;  // all of the cell's rays hit within the windows
 };
 
 // Memory is reused from call to call.
@@ -41,11 +42,9 @@ struct WindowChains {
 
 class CellWindows {
   public:
-    // tolerance: of rays, a unit length of their way.
-    CellWindows(const trace::Field& field, double tolerance)
-        : field_(field), plan_(field), jets_(field), tolerance_(tolerance) {}
+    explicit CellWindows(const trace::Field& field) : field_(field), plan_(field), jets_(field) {}
 
-    // Windows for out.chains; what `out` held before is forgotten.
+    // Puts windows for out.chains behind those that `out` holds.
     void build(WindowChains& out, trace::TraceCounters& counters) const;
 
   private:
@@ -57,7 +56,6 @@ class CellWindows {
     const trace::Field& field_;
     trace::WindowPlan plan_;
     trace::WindowJets jets_;
-    double tolerance_;
 };
 
 }  // namespace strata::accel

@@ -10,10 +10,10 @@ namespace strata::integrate {
 
 void follow_beams(const SurfaceSetup& setup, const SampleBatch& samples, CulledBatch& batch, Counters& counters) {
     PhaseMeter meter(counters);
-    trace::TraceCounters traced;
+    trace::TraceCounters traced, windows;
     batch.first_cell = batch.last_cell = batch.first = batch.last = 0;
     if (setup.screen_beams) {
-        setup.screen_beams->trace(samples.u, samples.v, samples.t, batch.beamed, traced);
+        setup.screen_beams->trace(samples.u, samples.v, samples.t, batch.beamed, traced, windows);
     } else {
         std::vector<std::uint32_t>& order = batch.beamed.samples.order;
         order.resize(samples.u.size());
@@ -21,6 +21,7 @@ void follow_beams(const SurfaceSetup& setup, const SampleBatch& samples, CulledB
         batch.beamed.cells.clear();
         if (!order.empty()) batch.beamed.cells.push_back({.last = static_cast<std::uint32_t>(order.size())});
     }
+    meter.book(Phase::windows, windows);  // their time is the beams'
     meter.book(Phase::beams, traced);
 }
 
@@ -44,18 +45,21 @@ void cull_rays(const SurfaceSetup& setup, CulledBatch& batch, SurfaceChunk& chun
     PhaseMeter meter(counters);
     const auto cells = std::span<const accel::BeamedCell>(batch.beamed.cells)
                            .subspan(batch.first_cell, batch.last_cell - batch.first_cell);
-    if (batch.first == cells.front().first) {
-        trace::TraceCounters traced;
-        setup.screen_beams->open_windows(batch.beamed, cells, batch.windows, traced);
-        meter.book(Phase::windows, traced);
-    }
     std::size_t cell = 0;
     for (std::size_t i = 0; i < chunk.rays.size(); ++i) {
         while (batch.first + i >= cells[cell].last) ++cell;
         trace::Ray& ray = chunk.rays[i];
         ray.start = cells[cell].misses ? std::numeric_limits<double>::infinity() : cells[cell].start;
         ray.hint = cells[cell].hint;
-        ray.window = batch.windows.first(cell);
+    }
+    chunk.windowed.clear();
+    for (cell = 0; cell < cells.size(); ++cell) {
+        // A cell larger than a chunk is in several.
+        const std::size_t first = std::max<std::size_t>(cells[cell].first, batch.first);
+        const std::size_t last = std::min<std::size_t>(cells[cell].last, batch.last);
+        if (first < last) {
+            chunk.windowed.push_back({first - batch.first, last - batch.first, batch.beamed.first_window(cells[cell])});
+        }
     }
     meter.book(Phase::shading);
 }

@@ -1,6 +1,6 @@
 // Stage of a surface's picture: what rays need not be followed through. Beams around the cells of the screen are
-// followed once a batch; its samples are then taken chunk by chunk in the order of their cells, and windows are opened
-// for the cells of each chunk.
+// followed once a batch, and windows opened where they met something; its samples are then taken chunk by chunk in the
+// order of their cells.
 #pragma once
 
 #include "src/integrate/image_function.h"
@@ -17,7 +17,6 @@ struct CulledBatch {
     accel::BeamedSamples beamed;
     std::size_t first_cell = 0, last_cell = 0;  // beamed.cells [first_cell, last_cell) are at work,
     std::size_t first = 0, last = 0;            // and of their samples beamed.samples.order [first, last)
-    accel::WindowChains windows;                // of these cells
 };
 
 // Follows the beams. Without beams (the reference tracer's case) all samples are of one cell, of which nothing is
@@ -27,7 +26,7 @@ void follow_beams(const SurfaceSetup& setup, const SampleBatch& samples, CulledB
 // The next chunk of the batch, of kChunk samples at most: chunk.order. False: there is none.
 bool next_chunk(CulledBatch& batch, SurfaceChunk& chunk);
 
-// Lets each ray begin where its cell's beam ended, with its cell's windows.
+// Lets each ray begin where its cell's beam ended, and names the windows of its cell: chunk.windowed.
 void cull_rays(const SurfaceSetup& setup, CulledBatch& batch, SurfaceChunk& chunk, Counters& counters);
 
 }  // namespace strata::integrate

@@ -7,6 +7,7 @@
 #include "src/accel/sun_beams.h"
 #include "src/integrate/sample_cost.h"
 #include "src/trace/ray.h"
+#include "src/trace/window_tracer.h"
 
 namespace strata::integrate {
 
@@ -39,8 +40,14 @@ struct SurfaceChunk {
     std::vector<glm::dvec3> to_light;
     std::size_t directions_a_light = 1;
 
+    // cull_rays: the rays, by cells of the screen that share windows; empty where there are none.
+    std::vector<trace::WindowedRays> windowed;
+
     // trace_rays: of each sample.
     std::vector<trace::Hit> hits;
+    trace::WindowTracerWork window_work;
+    std::vector<trace::Ray> open_rays;  // those that windows did not settle, and their hits
+    std::vector<trace::Hit> open_hits;
 
     // resolve_hits: of each sample that hit.
     std::vector<std::uint32_t> sample;  // which it is, by index in the arrays above

@@ -56,6 +56,7 @@ SurfaceSetup::SurfaceSetup(const scene::Scene& picture, Tracer used_tracer, std:
       step_limit(most_steps),
       field(scene.surface),
       fast(field),
+      windowed(field),
       placement(scene.surface),
       path(scene.camera),
       camera(path.at(0.0), scene.film),

@@ -16,6 +16,7 @@
 #include "src/trace/fast_tracer.h"
 #include "src/trace/field.h"
 #include "src/trace/placement.h"
+#include "src/trace/window_tracer.h"
 
 namespace strata::integrate {
 
@@ -40,6 +41,7 @@ struct SurfaceSetup {
     std::uint32_t step_limit;
     trace::Field field;
     trace::FastTracer fast;
+    trace::WindowTracer windowed;
     trace::Placement placement;
     scene::CameraPath path;
     trace::Camera camera;                            // where it stays, if it does

@@ -37,6 +37,9 @@ class WindowPlan {
     // How large a window with about this error may be.
     Size size(double error) const;
 
+    // sum a w^3 T / 6, of all octaves.
+    double cube() const { return sums_.back().cube; }
+
     // reach: bound of |centre| on every axis. Holds for a ball one per cent larger as well.
     float error(const Size& size, double reach) const;
 
