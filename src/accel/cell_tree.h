@@ -104,11 +104,9 @@ void split(Cells& cells, int level, CellTree<typename Cells::Frame>& tree) {
     }
 }
 
-// A family may look at all ends of a level at once before it notes them one by one.
 template <CellFamily Cells>
 void keep(Cells& cells, int level, CellTree<typename Cells::Frame>& tree) {
     tree.nodes.clear();
-    if constexpr (requires { cells.look(level, tree); }) cells.look(level, tree);
     for (std::size_t i = 0; i < tree.children.size(); ++i) {
         CellNode& node = tree.children[i];
         if (cells.note(level, node, tree.frames[i], tree.beams[i], tree.ends[i]) && level > 0)

@@ -30,14 +30,12 @@ constexpr int kMostWindows = 8;
 // Of positions: covers the rounding of a centre and of a ray's point.
 constexpr double kPlace = 0x1p-49;
 
-double radius_at(const trace::Beam& beam, double s) { return beam.radius0 + beam.noise_radius + beam.spread * s; }
-
 }  // namespace
 
 // No octaves where no window is worth it.
 trace::WindowPlan::Size CellWindows::next_size(const WindowChain& chain) const {
     if (!(plan_.cube() > 0.0)) return {};
-    const double beam_radius = radius_at(chain.cell->beam, chain.s);
+    const double beam_radius = trace::radius_at(chain.cell->beam, chain.s);
     const double slope = std::max(std::abs(chain.slope), kLeastSlope);
     const double near = kNearError * slope * std::sqrt(slope / plan_.cube());
     trace::WindowPlan::Size size = plan_.size(std::max(near, kFarError * chain.clearance));
@@ -100,7 +98,7 @@ bool CellWindows::goes_on(WindowChain& chain, const trace::Window& window) const
     const glm::dvec3 gradient = field_.base_gradient(x) - glm::dvec3(window.gradient);
     const double slope = glm::dot(gradient, beam.direction);
     const double across = glm::length(gradient - slope * beam.direction);
-    const double spread = across * radius_at(beam, chain.s) + static_cast<double>(window.error);
+    const double spread = across * trace::radius_at(beam, chain.s) + static_cast<double>(window.error);
     const double end = f + slope * chain.half;
     chain.slope = slope;
     chain.clearance = std::max(end - spread, 0.0);

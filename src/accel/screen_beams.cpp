@@ -19,6 +19,9 @@ constexpr double kBlurASide = 0.5;
 // Cells up to this side, px, are not divided where windows fit around them. Speed only.
 constexpr double kWidestWithWindows = 1.0;
 
+// Of beams after each touch, but for the finest, whose rays do as well. Speed only.
+constexpr int kMostJumps = 24;
+
 double rays_a_pixel(const scene::Sampling& sampling) {
     return sampling.estimator == scene::EstimatorKind::none ? 1.0 : static_cast<double>(sampling.N) * sampling.N;
 }
@@ -53,67 +56,59 @@ ScreenBeams::ScreenBeams(const scene::Scene& scene, const scene::CameraPath& pat
                          const trace::Field& field)
     : around_(scene, path, placement, field), tracer_(field), windows_(field), hierarchy_(hierarchy(scene, around_)) {}
 
-// Every cell that holds samples is wanted. What a node has reached is a distance from the eye.
-class ScreenBeams::Descent {
-  public:
-    using Frame = ScreenCellFrame;
-
-    Descent(const ScreenBeams& beams, BeamedSamples& out, trace::TraceCounters& window_counters)
-        : beams_(beams), out_(out), window_counters_(window_counters) {}
-
-    int levels() const { return beams_.hierarchy_.levels(); }
-    std::span<const std::uint64_t> codes() const { return out_.samples.codes; }
-    int shift(int level) const { return beams_.hierarchy_.shift(level); }
-    bool is_wanted(int /*level*/, std::uint32_t /*first*/, std::uint32_t /*last*/) const { return true; }
-
-    // Where no beam fits around the cell, one with a limit of 0 stands for it, which the tracer leaves at once.
-    trace::Beam place(int level, std::uint64_t code, const CellNode& parent, Frame& frame) const {
-        const CellBeam cell = beams_.around_.around(beams_.hierarchy_.cell(code, level)).value_or(CellBeam{});
-        frame.margins = cell.margins;
-        trace::Beam beam = cell.beam;
-        beam.start = std::max(beam.start, parent.reached * cell.margins.cosine * trace::kSooner);
-        return beam;
-    }
-
-    // Windows around the cells whose beams met something.
-    void look(int level, CellTree<Frame>& tree) {
-        out_.windows.chains.clear();
-        out_.chained.clear();
-        if (level > 0 && beams_.hierarchy_.side(level) > kWidestWithWindows) return;
-        out_.chained.reserve(tree.beams.size());  // chains point to them
-        for (std::size_t i = 0; i < tree.beams.size(); ++i) {
-            const trace::BeamEnd& end = tree.ends[i];
-            if (!(tree.beams[i].limit > 0.0) || end.misses) continue;
-            const CellBeam& cell = out_.chained.emplace_back(CellBeam{tree.beams[i], tree.frames[i].margins});
-            tree.frames[i].chain = static_cast<std::int32_t>(out_.windows.chains.size());
-            out_.windows.chains.push_back({.cell = &cell, .s = end.s, .slope = end.slope});
+// The cells within each node, with its zones.
+void ScreenBeams::split(int level, BeamedSamples& out) const {
+    const int shift = hierarchy_.shift(level);
+    const std::span<const std::uint64_t> codes = out.samples.codes;
+    out.children.clear();
+    out.bundles.clear();
+    for (const ScreenNode& node : out.nodes) {
+        for (std::uint32_t i = node.first, end; i < node.last; i = end) {
+            const std::uint64_t code = codes[i] >> shift;
+            for (end = i + 1; end < node.last && codes[end] >> shift == code;) ++end;
+            // Where no beam fits around the cell, one with a limit of 0 stands for it.
+            const CellBeam cell = around_.around(hierarchy_.cell(code, level)).value_or(CellBeam{});
+            out.children.push_back({i, end, {}});
+            out.bundles.push_back({cell, node.zones});
         }
-        beams_.windows_.build(out_.windows, window_counters_);
     }
+}
 
-    // Cells of the finest level, those whose rays meet nothing, and those all of whose rays hit within their windows,
-    // are done.
-    bool note(int level, CellNode& node, const Frame& frame, const trace::Beam& beam, const trace::BeamEnd& end) {
-        const bool is_beam = beam.limit > 0.0;
-        if (is_beam) {
-            node.reached = std::max(node.reached, (end.s - frame.margins.shift) * trace::kSooner);
-            node.hint = end.hint;
-        }
-        const bool misses = is_beam && end.misses;
+// Around the cells whose beams met something, from their first zone on.
+void ScreenBeams::open_windows(int level, BeamedSamples& out, trace::TraceCounters& window_counters) const {
+    out.windows.chains.clear();
+    out.chains.assign(out.bundles.size(), -1);
+    if (level > 0 && hierarchy_.side(level) > kWidestWithWindows) return;
+    for (std::size_t i = 0; i < out.bundles.size(); ++i) {
+        const ZonedBundle& bundle = out.bundles[i];
+        if (!(bundle.cell.beam.limit > 0.0) || bundle.zones.count == 0) continue;
+        const Zone& zone = bundle.zones.zones[0];
+        out.chains[i] = static_cast<std::int32_t>(out.windows.chains.size());
+        out.windows.chains.push_back({.cell = &bundle.cell, .s = zone.s, .slope = static_cast<double>(zone.slope)});
+    }
+    windows_.build(out.windows, window_counters);
+}
+
+// Cells of the finest level, those whose rays meet nothing, and those all of whose rays hit within their windows are
+// done. The others are nodes of the next level.
+void ScreenBeams::keep(int level, BeamedSamples& out) const {
+    out.nodes.clear();
+    for (std::size_t i = 0; i < out.children.size(); ++i) {
+        ScreenNode& node = out.children[i];
+        node.zones = out.bundles[i].zones;
         const WindowChain* chain =
-            frame.chain < 0 ? nullptr : &out_.windows.chains[static_cast<std::size_t>(frame.chain)];
-        if (level > 0 && !misses && !(chain != nullptr && chain->hits)) return true;
+            out.chains[i] < 0 ? nullptr : &out.windows.chains[static_cast<std::size_t>(out.chains[i])];
+        if (level > 0 && node.zones.count > 0 && !(chain != nullptr && chain->hits)) {
+            out.nodes.push_back(node);
+            continue;
+        }
+        const auto first_zone = static_cast<std::uint32_t>(out.zones.size());
+        out.zones.insert(out.zones.end(), node.zones.all().begin(), node.zones.all().end());
         const bool has_windows = chain != nullptr && chain->length > 0;
-        out_.cells.push_back({node.first, node.last, misses, node.reached, node.hint,
-                              has_windows ? static_cast<std::int32_t>(chain->first) : -1});
-        return false;
+        out.cells.push_back({node.first, node.last, first_zone, static_cast<std::uint32_t>(out.zones.size()),
+                             has_windows ? static_cast<std::int32_t>(chain->first) : -1});
     }
-
-  private:
-    const ScreenBeams& beams_;
-    BeamedSamples& out_;
-    trace::TraceCounters& window_counters_;
-};
+}
 
 void ScreenBeams::trace(std::span<const double> u, std::span<const double> v, std::span<const double> t,
                         BeamedSamples& out, trace::TraceCounters& counters,
@@ -122,9 +117,16 @@ void ScreenBeams::trace(std::span<const double> u, std::span<const double> v, st
     hierarchy_.codes(u, v, t, out.samples.codes);
     out.samples.sort();
     out.cells.clear();
+    out.zones.clear();
     out.windows.windows.clear();
-    Descent descent(*this, out, window_counters);
-    descend(descent, 0.0, tracer_, out.tree, counters);
+    out.nodes.assign(1, {0, static_cast<std::uint32_t>(u.size()), {}});
+    out.nodes.front().zones.put({});
+    for (int level = hierarchy_.levels() - 1; level >= 0 && !out.nodes.empty(); --level) {
+        split(level, out);
+        out.zone_tracer.follow(tracer_, out.bundles, level > 0 ? kMostJumps : 0, counters);
+        open_windows(level, out, window_counters);
+        keep(level, out);
+    }
     // Mostly all are of the finest level, and in order.
     if (!std::ranges::is_sorted(out.cells, {}, &BeamedCell::first))
         std::ranges::sort(out.cells, {}, &BeamedCell::first);

@@ -45,21 +45,20 @@ void cull_rays(const SurfaceSetup& setup, CulledBatch& batch, SurfaceChunk& chun
     PhaseMeter meter(counters);
     const auto cells = std::span<const accel::BeamedCell>(batch.beamed.cells)
                            .subspan(batch.first_cell, batch.last_cell - batch.first_cell);
-    std::size_t cell = 0;
-    for (std::size_t i = 0; i < chunk.rays.size(); ++i) {
-        while (batch.first + i >= cells[cell].last) ++cell;
-        trace::Ray& ray = chunk.rays[i];
-        ray.start = cells[cell].misses ? std::numeric_limits<double>::infinity() : cells[cell].start;
-        ray.hint = cells[cell].hint;
-    }
     chunk.windowed.clear();
-    for (cell = 0; cell < cells.size(); ++cell) {
+    chunk.zones.clear();
+    for (const accel::BeamedCell& cell : cells) {
         // A cell larger than a chunk is in several.
-        const std::size_t first = std::max<std::size_t>(cells[cell].first, batch.first);
-        const std::size_t last = std::min<std::size_t>(cells[cell].last, batch.last);
-        if (first < last) {
-            chunk.windowed.push_back({first - batch.first, last - batch.first, batch.beamed.first_window(cells[cell])});
+        const std::size_t first = std::max<std::size_t>(cell.first, batch.first) - batch.first;
+        const std::size_t last = std::min<std::size_t>(cell.last, batch.last) - batch.first;
+        const std::span<const accel::Zone> zones = batch.beamed.zones_of(cell);
+        for (std::size_t i = first; i < last; ++i) {
+            trace::Ray& ray = chunk.rays[i];
+            ray.start = zones.empty() ? std::numeric_limits<double>::infinity() : zones.front().from;
+            ray.hint = zones.empty() ? 0.0f : zones.front().hint;
         }
+        chunk.windowed.push_back({first, std::max(first, last), batch.beamed.first_window(cell)});
+        chunk.zones.push_back(zones);
     }
     meter.book(Phase::shading);
 }

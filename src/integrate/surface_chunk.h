@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/accel/sun_beams.h"
+#include "src/accel/zones.h"
 #include "src/integrate/sample_cost.h"
 #include "src/trace/ray.h"
 #include "src/trace/window_tracer.h"
@@ -27,6 +28,18 @@ struct ShadowRays {
     }
 };
 
+// Rays that windows did not settle, on their way from zone to zone.
+struct OpenRays {
+    struct Place {
+        std::uint32_t ray = 0;  // by index in the chunk
+        std::uint32_t cell = 0;
+        std::uint32_t zone = 0;
+    };
+    std::vector<Place> places, next;
+    std::vector<trace::Ray> rays;
+    std::vector<trace::Hit> hits;
+};
+
 // One each thread; its memory is reused from chunk to chunk, for fresh memory would cost as much as the shading.
 struct SurfaceChunk {
     std::span<const std::uint32_t> order;  // which samples of the batch these are
@@ -40,14 +53,14 @@ struct SurfaceChunk {
     std::vector<glm::dvec3> to_light;
     std::size_t directions_a_light = 1;
 
-    // cull_rays: the rays, by cells of the screen that share windows; empty where there are none.
+    // cull_rays: the rays, by cells of the screen that share windows and zones; empty where nothing is known of them.
     std::vector<trace::WindowedRays> windowed;
+    std::vector<std::span<const accel::Zone>> zones;  // of each of `windowed`
 
     // trace_rays: of each sample.
     std::vector<trace::Hit> hits;
     trace::WindowTracerWork window_work;
-    std::vector<trace::Ray> open_rays;  // those that windows did not settle, and their hits
-    std::vector<trace::Hit> open_hits;
+    OpenRays open;
 
     // resolve_hits: of each sample that hit.
     std::vector<std::uint32_t> sample;  // which it is, by index in the arrays above

@@ -15,21 +15,48 @@ void trace_rays(const SurfaceSetup& setup, std::span<const trace::Ray> rays, std
 
 namespace {
 
-// Rays whose windows settle them, then the others.
-void trace_windowed(const SurfaceSetup& setup, SurfaceChunk& chunk, trace::TraceCounters& counters) {
-    setup.windowed.trace(chunk.rays, chunk.windowed, chunk.hits, chunk.window_work, counters);
-    const std::span<const std::uint32_t> open = chunk.window_work.open;
-    chunk.open_rays.clear();
-    for (const std::uint32_t i : open) chunk.open_rays.push_back(chunk.rays[i]);
-    chunk.open_hits.resize(open.size());
-    setup.fast.trace(chunk.open_rays, chunk.open_hits, counters);
-    for (std::size_t k = 0; k < open.size(); ++k) {
-        trace::Hit& hit = chunk.hits[open[k]];
+// The open rays, each in its cell's first zone.
+void place_open_rays(const SurfaceChunk& chunk, OpenRays& open) {
+    open.places.clear();
+    std::uint32_t cell = 0;
+    for (const std::uint32_t i : chunk.window_work.open) {
+        while (i >= chunk.windowed[cell].last) ++cell;
+        if (!chunk.zones[cell].empty()) open.places.push_back({i, cell, 0});
+    }
+}
+
+// Follows the open rays through their zones, and lists those that leave them and have another.
+void trace_zones(const SurfaceSetup& setup, SurfaceChunk& chunk, trace::TraceCounters& counters) {
+    OpenRays& open = chunk.open;
+    open.rays.clear();
+    for (const OpenRays::Place& at : open.places) {
+        const accel::Zone& zone = chunk.zones[at.cell][at.zone];
+        trace::Ray& ray = open.rays.emplace_back(chunk.rays[at.ray]);
+        ray.limit = std::min(ray.limit, zone.to);
+        ray.start = std::max(ray.start, zone.from);
+        ray.hint = zone.hint;
+    }
+    open.hits.resize(open.rays.size());
+    setup.fast.trace(open.rays, open.hits, counters);
+    open.next.clear();
+    for (std::size_t k = 0; k < open.places.size(); ++k) {
+        const OpenRays::Place& at = open.places[k];
+        trace::Hit& hit = chunk.hits[at.ray];
         const std::uint32_t steps = hit.steps, evaluations = hit.noise_evaluations;
-        hit = chunk.open_hits[k];
+        hit = open.hits[k];
         hit.steps += steps;
         hit.noise_evaluations += evaluations;
+        const bool has_more = at.zone + 1 < chunk.zones[at.cell].size();
+        if (hit.state == trace::HitState::miss && has_more) open.next.push_back({at.ray, at.cell, at.zone + 1});
     }
+    open.places.swap(open.next);
+}
+
+// By windows first; what these leave open, zone by zone.
+void trace_cells(const SurfaceSetup& setup, SurfaceChunk& chunk, trace::TraceCounters& counters) {
+    setup.windowed.trace(chunk.rays, chunk.windowed, chunk.hits, chunk.window_work, counters);
+    place_open_rays(chunk, chunk.open);
+    while (!chunk.open.places.empty()) trace_zones(setup, chunk, counters);
 }
 
 }  // namespace
@@ -38,9 +65,8 @@ void trace_rays(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counte
     PhaseMeter meter(counters);
     trace::TraceCounters traced;
     chunk.hits.resize(chunk.rays.size());
-    const auto has_window = [](const trace::WindowedRays& group) { return group.window != nullptr; };
-    if (std::ranges::any_of(chunk.windowed, has_window)) {
-        trace_windowed(setup, chunk, traced);
+    if (setup.screen_beams) {
+        trace_cells(setup, chunk, traced);
     } else {
         trace_rays(setup, chunk.rays, chunk.hits, traced);
     }

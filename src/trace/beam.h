@@ -20,11 +20,15 @@ struct Beam {
     float hint = 0.0f;  // step length to begin with; 0: unknown
 };
 
+// Of the bundle as the noise sees it.
+inline double radius_at(const Beam& beam, double s) { return beam.radius0 + beam.noise_radius + beam.spread * s; }
+
 struct BeamEnd {
     double s = 0.0;       // f > 0 at every point of the bundle with axis coordinate in [start, s)
     float hint = 0.0f;    // step length to go on with
     float slope = 0.0f;   // of f along the axis near s, about
     bool misses = false;  // the bundle is free up to its limit
+    float f = 0.0f;       // on the axis at s, about; 0: unknown
 };
 
 }  // namespace strata::trace

@@ -103,7 +103,7 @@ HWY_INLINE FloatVec solve_beam(const TracePlan& plan, const BeamCache& cache, co
 
 // All active lanes by their safe steps; those that gained too little, or passed their limit, report and become idle.
 HWY_INLINE void move_beams(BeamPacket& packet, const Wide& s, FloatVec safe, FloatVec least_gain, FloatVec slope,
-                           std::span<BeamEnd> ends, TraceCounters& counters) {
+                           FloatVec f, std::span<BeamEnd> ends, TraceCounters& counters) {
     const FloatTag d;
     const WordTag dw;
     const auto active = hn::Gt(hn::Load(d, packet.active), hn::Zero(d));
@@ -118,11 +118,13 @@ HWY_INLINE void move_beams(BeamPacket& packet, const Wide& s, FloatVec safe, Flo
     const auto is_last = hn::RebindMask(d, hn::Eq(steps, hn::Set(dw, kMostBeamSteps)));
     const auto ends_here = hn::And(active, hn::Or(misses, hn::Or(hn::Not(gains), is_last)));
     if (hn::AllFalse(d, ends_here)) return;
-    alignas(HWY_MAX_BYTES) float slopes[kMaxLanes];
+    alignas(HWY_MAX_BYTES) float slopes[kMaxLanes], values[kMaxLanes];
     hn::Store(slope, d, slopes);
+    hn::Store(f, d, values);
     const LaneSet missing(misses);
     for (const std::size_t lane : LaneSet(ends_here)) {
-        ends[packet.beam[lane]] = {packet.s[lane], packet.hint[lane], slopes[lane], missing.contains(lane)};
+        ends[packet.beam[lane]] = {packet.s[lane], packet.hint[lane], slopes[lane], missing.contains(lane),
+                                   values[lane]};
         packet.active[lane] = 0.0f;
         --packet.active_count;
     }
@@ -157,7 +159,7 @@ HWY_INLINE void step_beams(const Field& field, const TracePlan& plan, BeamPacket
     span.along = hn::Mul(span.ahead, speed);
     const FloatVec safe = hn::Max(first, solve_beam<kPlanar, kLoose>(plan, cache, at, span, noise_radius, &slope));
     hn::Store(hn::Min(hn::Max(safe, hn::Max(least_gain, hn::Set(d, 1e-30f))), hn::Set(d, 1e15f)), d, packet.hint);
-    move_beams(packet, s, safe, least_gain, slope, ends, counters);
+    move_beams(packet, s, safe, least_gain, slope, certain, ends, counters);
 }
 
 template <bool kPlanar, bool kLoose>

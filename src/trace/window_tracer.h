@@ -15,7 +15,7 @@ namespace strata::trace {
 struct WindowTracerWork {
     std::vector<Bracket> brackets;
     std::vector<std::uint32_t> landing, again;
-    std::vector<std::uint32_t> open;  // the rays that were not settled, by index
+    std::vector<std::uint32_t> open;  // the rays that were not settled, by index, in ascending order
 };
 
 class WindowTracer {
