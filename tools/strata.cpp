@@ -12,11 +12,29 @@
 #include "src/scene/key_text.h"
 #include "src/scene/scene_error.h"
 #include "src/scene/suggest.h"
-#include "tools/cli/commands.h"
+#include "tools/cli/command_line.h"
 #include "tools/cli/endings.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/process.h"
 #include "tools/cli/standard_output.h"
+
+// Each folder tools/NAME has a command, which adds itself to the program and runs when it was chosen, leaving its exit
+// code.
+#define STRATA_DECLARE_COMMAND(name)                         \
+    namespace strata::tools::name {                          \
+    void add_command(cli::Command& program, int& exit_code); \
+    }
+STRATA_DECLARE_COMMAND(render)
+STRATA_DECLARE_COMMAND(scene_list)
+STRATA_DECLARE_COMMAND(probe)
+STRATA_DECLARE_COMMAND(strip)
+STRATA_DECLARE_COMMAND(sweep)
+STRATA_DECLARE_COMMAND(animate)
+STRATA_DECLARE_COMMAND(figures)
+STRATA_DECLARE_COMMAND(converge)
+STRATA_DECLARE_COMMAND(stability)
+STRATA_DECLARE_COMMAND(explain)
+STRATA_DECLARE_COMMAND(bench)
 
 namespace {
 
@@ -83,12 +101,13 @@ std::string usage_problem(const Chosen& innermost, const CLI::ParseError& error)
 
 int usage_error(const CLI::App& program, const CLI::ParseError& error) {
     const Chosen innermost = chosen(program);
-    strata::tools::print_error(fmt::format("{}\nSee '{} --help'.", usage_problem(innermost, error), innermost.call));
-    return strata::tools::kExitUsage;
+    strata::tools::cli::print_error(
+        fmt::format("{}\nSee '{} --help'.", usage_problem(innermost, error), innermost.call));
+    return strata::tools::cli::kExitUsage;
 }
 
 int fail(const char* message, int exit_code) {
-    strata::tools::print_error(message);
+    strata::tools::cli::print_error(message);
     return exit_code;
 }
 
@@ -96,28 +115,28 @@ int fail(const char* message, int exit_code) {
 int answer(const CLI::App& program, const CLI::Success& request) {
     std::ostringstream text;
     program.exit(request, text, text);
-    strata::tools::print_out(text.str());
+    strata::tools::cli::print_out(text.str());
     return 0;
 }
 
 int run(int argc, char** argv) {
-    strata::tools::Command commands(
+    strata::tools::cli::Command commands(
         "Procedural implicit surfaces, ray cast and antialiased with stratified B-spline samples.", "strata");
     CLI::App& program = commands.app();
     program.set_version_flag("--version", "strata " STRATA_VERSION, "Print the program's version");
     commands.require_subcommand();
     int exit_code = 0;
-    strata::tools::add_render_command(commands, exit_code);
-    strata::tools::add_scenes_command(commands, exit_code);
-    strata::tools::add_probe_command(commands, exit_code);
-    strata::tools::add_strip_command(commands, exit_code);
-    strata::tools::add_sweep_command(commands, exit_code);
-    strata::tools::add_animate_command(commands, exit_code);
-    strata::tools::add_figures_command(commands, exit_code);
-    strata::tools::add_converge_command(commands, exit_code);
-    strata::tools::add_stability_command(commands, exit_code);
-    strata::tools::add_explain_command(commands, exit_code);
-    strata::tools::add_bench_command(commands, exit_code);
+    strata::tools::render::add_command(commands, exit_code);
+    strata::tools::scene_list::add_command(commands, exit_code);
+    strata::tools::probe::add_command(commands, exit_code);
+    strata::tools::strip::add_command(commands, exit_code);
+    strata::tools::sweep::add_command(commands, exit_code);
+    strata::tools::animate::add_command(commands, exit_code);
+    strata::tools::figures::add_command(commands, exit_code);
+    strata::tools::converge::add_command(commands, exit_code);
+    strata::tools::stability::add_command(commands, exit_code);
+    strata::tools::explain::add_command(commands, exit_code);
+    strata::tools::bench::add_command(commands, exit_code);
     // Commands added later would inherit it.
     program.footer("'strata COMMAND --help' explains each. `strata render` without more renders the scene terrain.");
     try {
@@ -126,18 +145,19 @@ int run(int argc, char** argv) {
         return answer(program, request);
     } catch (const CLI::ParseError& error) {
         return usage_error(program, error);
-    } catch (const strata::tools::UsageError& error) {
-        return fail(error.what(), strata::tools::kExitUsage);
+    } catch (const strata::tools::cli::UsageError& error) {
+        return fail(error.what(), strata::tools::cli::kExitUsage);
     } catch (const strata::scene::SceneError& error) {
-        return fail(error.what(), strata::tools::kExitUsage);
+        return fail(error.what(), strata::tools::cli::kExitUsage);
     } catch (const std::bad_alloc&) {
-        return fail("out of memory; a smaller --size, or --crop, needs less", strata::tools::kExitRuntime);
-    } catch (const strata::tools::ProcessError& error) {
+        return fail("out of memory; a smaller --size, or --crop, needs less", strata::tools::cli::kExitRuntime);
+    } catch (const strata::tools::cli::ProcessError& error) {
         // The signal that stopped this program stopped the one that it ran.
         const int signal = strata::parallel::cancelling_signal();
-        return fail(error.what(), signal != 0 ? strata::tools::kExitSignal + signal : strata::tools::kExitRuntime);
+        return fail(error.what(),
+                    signal != 0 ? strata::tools::cli::kExitSignal + signal : strata::tools::cli::kExitRuntime);
     } catch (const std::exception& error) {
-        return fail(strata::tools::message_of(error).c_str(), strata::tools::kExitRuntime);
+        return fail(strata::tools::cli::message_of(error).c_str(), strata::tools::cli::kExitRuntime);
     }
     return exit_code;
 }
@@ -146,7 +166,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     std::setlocale(LC_ALL, "C");
-    strata::tools::guard_standard_streams();
-    strata::tools::prepare_endings();
-    return strata::tools::finish_output(run(argc, argv));
+    strata::tools::cli::guard_standard_streams();
+    strata::tools::cli::prepare_endings();
+    return strata::tools::cli::finish_output(run(argc, argv));
 }

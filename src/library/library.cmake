@@ -4,9 +4,6 @@
 #   program   the strata program
 strata_floor(strata_noise_library src/library/noise strata_noise)
 strata_floor(strata_library src/library strata_noise_library strata_render strata_image)
-# The program's own description of a picture, so that both write the same bytes.
-target_sources(strata_library PRIVATE ${PROJECT_SOURCE_DIR}/tools/job/picture_metadata.cpp)
-target_compile_definitions(strata_library PRIVATE STRATA_VERSION="${PROJECT_VERSION}")
 set_target_properties(strata_library PROPERTIES STRATA_LIGHT ON)
 if(STRATA_SANITIZE)
   return()

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include "src/image/output_file.h"
+#include "src/image/picture_metadata.h"
 #include "src/image/picture_stream.h"
 #include "src/integrate/make_image.h"
 #include "src/library/render_setting.h"
 #include "src/library/translate.h"
-#include "tools/job/picture_metadata.h"
 
 namespace strata {
 
@@ -49,7 +49,7 @@ FileRender::FileRender(RenderSetting& setting, const fs::path& file, const FileO
               .exr_format = is_half ? image::ExrFormat::half : image::ExrFormat::floating,
               .exr_layout = options.tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic};
     metadata_ =
-        tools::picture_metadata(setting.scene(), w, setting.tracer() == integrate::Tracer::fast ? "fast" : "reference",
+        image::picture_metadata(setting.scene(), w, setting.tracer() == integrate::Tracer::fast ? "fast" : "reference",
                                 is_half ? "half" : "float");
     if (options.tiled) metadata_.set("strata:tiled", "asked for");
 }
@@ -85,7 +85,7 @@ render::ProgressiveResult FileRender::in_passes() {
     render::ProgressiveResult result = render::render_progressively(
         *image, estimate::estimator_settings(setting_.scene()), setting_.window(), setting_.goal(), setting_.options());
     if (!is_whole(result.render)) return result;
-    tools::set_passes(metadata_, setting_.scene().sampling, result.passes);
+    image::set_passes(metadata_, setting_.scene().sampling, result.passes);
     image::PictureStream stream(file_, shape_, metadata_, write_);
     const std::span<const glm::vec3> pixels(result.render.film.pixels());
     const auto strip = static_cast<std::size_t>(shape_.width()) * image::kStripRows;

@@ -13,7 +13,7 @@
 #include "src/scene/toml_reader.h"
 #include "tools/explain/prediction.h"
 
-namespace strata::tools::testing {
+namespace strata::tools::explain::testing {
 
 // Counts of one render within their intervals.
 struct Verdicts {
@@ -64,4 +64,4 @@ inline void conclude(const Verdicts& verdicts) {
     CHECK(verdicts.within >= verdicts.counts * 99 / 100);
 }
 
-}  // namespace strata::tools::testing
+}  // namespace strata::tools::explain::testing

@@ -11,7 +11,8 @@
 #include "tools/figures/films.h"
 #include "tools/figures/record.h"
 
-using namespace strata::tools;
+using namespace strata::tools::figures;
+using namespace strata::tools::job;
 using namespace strata;
 
 namespace {
@@ -118,48 +119,48 @@ TEST_CASE("a record vouches for each of its files, byte by byte") {
     for (const std::string& file : files) write_bytes(folder / file, "content of " + file);
     const nlohmann::ordered_json record{{"figure", 1}, {"scale", 0.1}};
     const auto path = folder / "a.json";
-    const auto is_made = [&](const nlohmann::ordered_json& expected) {
-        return figures::is_made(path, expected, files, true);
+    const auto is_made_now = [&](const nlohmann::ordered_json& expected) {
+        return is_made(path, expected, files, true);
     };
-    CHECK(!is_made(record));
-    figures::write_record(path, record, files);
+    CHECK(!is_made_now(record));
+    write_record(path, record, files);
     const std::string bytes = file_bytes(path);
     CHECK(bytes.find('\n') == bytes.size() - 1);
-    CHECK(is_made(record));
-    CHECK(!is_made({{"figure", 1}, {"scale", 0.2}}));
+    CHECK(is_made_now(record));
+    CHECK(!is_made_now({{"figure", 1}, {"scale", 0.2}}));
     for (const std::string& file : files) {
         const std::string whole = file_bytes(folder / file);
         for (const std::string& damaged : {std::string(), whole.substr(1), image::with_flipped_bit(whole, random)}) {
             write_bytes(folder / file, damaged);
-            CHECK(!is_made(record));
+            CHECK(!is_made_now(record));
         }
         std::filesystem::remove(folder / file);
-        CHECK(!is_made(record));
+        CHECK(!is_made_now(record));
         write_bytes(folder / file, whole);
-        CHECK(is_made(record));
+        CHECK(is_made_now(record));
     }
     for (const std::string& damaged : {std::string(), bytes.substr(0, bytes.size() / 2), std::string("[1]\n")}) {
         write_bytes(path, damaged);
-        CHECK(!is_made(record));
+        CHECK(!is_made_now(record));
     }
 }
 
 TEST_CASE("a film is made when its record vouches for both of its files") {
     const ScratchFolder folder;
-    const figures::Film film = figures::films(figures::Size::small).front();
-    const std::vector<std::string> files = figures::film_files(film);
+    const Film film = films(Size::small).front();
+    const std::vector<std::string> files = film_files(film);
     for (const std::string& file : files) write_bytes(folder / file, "frames of " + file);
-    CHECK(!figures::is_made(film, folder.path(), true));
-    figures::write_record(folder / (film.name + ".json"), figures::film_record(film), files);
-    CHECK(figures::is_made(film, folder.path(), true));
-    CHECK(!figures::is_made(figures::films(figures::Size::large).front(), folder.path(), true));
+    CHECK(!is_made(film, folder.path(), true));
+    write_record(folder / (film.name + ".json"), film_record(film), files);
+    CHECK(is_made(film, folder.path(), true));
+    CHECK(!is_made(films(Size::large).front(), folder.path(), true));
     for (const std::string& file : files) {
         const std::string whole = file_bytes(folder / file);
         for (const std::string& damaged : {std::string(), whole.substr(0, 5), "Frames" + whole.substr(6)}) {
             write_bytes(folder / file, damaged);
-            CHECK(!figures::is_made(film, folder.path(), true));
+            CHECK(!is_made(film, folder.path(), true));
         }
         write_bytes(folder / file, whole);
-        CHECK(figures::is_made(film, folder.path(), true));
+        CHECK(is_made(film, folder.path(), true));
     }
 }

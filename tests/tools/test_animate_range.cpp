@@ -14,7 +14,8 @@
 #include "tools/animate/timing.h"
 #include "tools/cli/errors.h"
 
-using namespace strata::tools;
+using namespace strata::tools::animate;
+using namespace strata::tools::cli;
 using namespace strata;
 
 TEST_CASE("frames are one number or first-last, both included") {

@@ -5,7 +5,8 @@
 #include "tools/cli/errors.h"
 #include "tools/job/aov.h"
 
-using namespace strata::tools;
+using namespace strata::tools::cli;
+using namespace strata::tools::job;
 using namespace strata;
 
 namespace {

@@ -247,7 +247,7 @@ TEST_CASE("runs that cannot be compared are refused with the reason") {
     const auto reason = [&](const std::string& text) -> std::string {
         try {
             check_comparable(read_earlier(write_json(folder, text)), results.plan);
-        } catch (const tools::UsageError& error) {
+        } catch (const tools::cli::UsageError& error) {
             return error.what();
         }
         return "accepted";
@@ -286,8 +286,8 @@ TEST_CASE("phases add up by name, and their shares are told and drawn") {
     Results results = flat_results({Section::octaves});
     const std::size_t panels = plot_report(results).panels.size();
     for (Measurement& m : results.measurements) m.phases = sum;
-    const tools::Plot plot = plot_report(results);
-    tools::check_plot(plot);
+    const tools::report::Plot plot = plot_report(results);
+    tools::report::check_plot(plot);
     CHECK(plot.panels.size() > panels);
     CHECK(text_report(results, {}, {}).find("beams 12, rays 62, film 25") != std::string::npos);
     const auto json = nlohmann::json::parse(json_report(results, {}, {}));
@@ -352,7 +352,8 @@ TEST_CASE("POV-Ray's statistics are read, and what is no statistics is refused")
     CHECK(povray_trace_seconds("  Trace Time:       0 hours  0 minutes 33 seconds (33.055 seconds)\n"
                                "              using 1 thread(s) with 16.306 CPU-seconds total\nPOV-Ray finished\n") ==
           Approx(16.306));
-    CHECK_THROWS_AS(povray_trace_seconds("Bounding Time: 1 thread(s) with 2 CPU-seconds total"), tools::ProcessError);
+    CHECK_THROWS_AS(povray_trace_seconds("Bounding Time: 1 thread(s) with 2 CPU-seconds total"),
+                    tools::cli::ProcessError);
 }
 
 TEST_CASE("POV-Ray's scene has every octave, halved and doubled, and our camera") {

@@ -11,7 +11,8 @@
 #include "src/scene/scene_error.h"
 #include "tools/cli/errors.h"
 
-using namespace strata::tools;
+using namespace strata::tools::cli;
+using namespace strata::tools::job;
 using namespace strata;
 
 namespace {

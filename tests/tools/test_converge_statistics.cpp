@@ -8,8 +8,10 @@
 #include "tools/converge/budget.h"
 #include "tools/converge/power_law.h"
 #include "tools/converge/statistics.h"
+#include "tools/report/statistics.h"
 
-using namespace strata::tools;
+using namespace strata::tools::converge;
+using namespace strata::tools::report;
 
 namespace {
 

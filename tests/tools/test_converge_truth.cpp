@@ -47,7 +47,7 @@ double brute_force(const std::function<double(double, double)>& function, int m,
 
 TEST_CASE("Gauss-Legendre is exact for polynomials of degree 2n - 1, and its weights sum to 2") {
     for (const int n : {1, 2, 3, 5, 12, 40, 62, 100}) {
-        const tools::GaussLegendre rule(n);
+        const tools::converge::GaussLegendre rule(n);
         double sum = 0;
         for (const double weight : rule.weights) sum += weight;
         CAPTURE(n);
@@ -64,17 +64,17 @@ TEST_CASE(
         for (const double angle : {0.0, 30.0, 45.0, 90.0, 135.0, 211.7, 359.999999}) {
             CAPTURE(m);
             CAPTURE(angle);
-            CHECK(tools::edge_coverage(m, angle, 0) == doctest::Approx(0.5).epsilon(1e-12));
-            CHECK(tools::edge_coverage(m, angle, 0.3) + tools::edge_coverage(m, angle, -0.3) ==
+            CHECK(tools::converge::edge_coverage(m, angle, 0) == doctest::Approx(0.5).epsilon(1e-12));
+            CHECK(tools::converge::edge_coverage(m, angle, 0.3) + tools::converge::edge_coverage(m, angle, -0.3) ==
                   doctest::Approx(1.0).epsilon(1e-12));
-            CHECK(tools::edge_coverage(m, angle, m) == 1.0);
-            CHECK(tools::edge_coverage(m, angle, -m) == 0.0);
+            CHECK(tools::converge::edge_coverage(m, angle, m) == 1.0);
+            CHECK(tools::converge::edge_coverage(m, angle, -m) == 0.0);
         }
     }
-    CHECK(tools::edge_coverage(1, 0, 0.25) == doctest::Approx(0.75));
+    CHECK(tools::converge::edge_coverage(1, 0, 0.25) == doctest::Approx(0.75));
     // A box cut at 45 degrees, d from its middle: 1 - (1 - d sqrt 2)^2 / 2 beyond d > 0.
     const double d = 0.4;
-    CHECK(tools::edge_coverage(1, 45, d) == doctest::Approx(1 - 0.5 * std::pow(1 - d * std::sqrt(2.0), 2)));
+    CHECK(tools::converge::edge_coverage(1, 45, d) == doctest::Approx(1 - 0.5 * std::pow(1 - d * std::sqrt(2.0), 2)));
 }
 
 TEST_CASE("an edge is what brute force makes of it") {
@@ -85,7 +85,7 @@ TEST_CASE("an edge is what brute force makes of it") {
     scene.film = {16, 9, 0};
     for (const int m : {1, 2, 4, 5}) {
         scene.edge = {360 * unit(random), 4 * unit(random) - 2};
-        const auto truth = tools::exact_picture(scene, m, {6, 2, 9, 5});
+        const auto truth = tools::converge::exact_picture(scene, m, {6, 2, 9, 5});
         REQUIRE(truth);
         for (int i = 0; i < 9; ++i) {
             const auto function = [&](double u, double v) {
@@ -105,7 +105,7 @@ TEST_CASE("a zone plate is what brute force makes of it, and far finer rings too
     for (const double rings : {0.0, 7.3, 40.0}) {
         scene.zoneplate.rings = rings;
         for (const int m : {1, 3, 4}) {
-            const auto truth = tools::exact_picture(scene, m, {18, 10, 20, 12});
+            const auto truth = tools::converge::exact_picture(scene, m, {18, 10, 20, 12});
             REQUIRE(truth);
             CHECK(truth->error < 1e-9);
             const auto function = [&](double u, double v) {
@@ -121,7 +121,7 @@ TEST_CASE("a zone plate is what brute force makes of it, and far finer rings too
         }
     }
     scene.zoneplate.rings = 1e8;
-    CHECK(!tools::exact_picture(scene, 4, {0, 0, 2, 2}));
+    CHECK(!tools::converge::exact_picture(scene, 4, {0, 0, 2, 2}));
 }
 
 TEST_CASE("a checkered plane is what brute force makes of it, above, at and below the horizon") {
@@ -132,7 +132,7 @@ TEST_CASE("a checkered plane is what brute force makes of it, above, at and belo
         for (const double horizon : {0.3, 0.25}) {
             scene.checker = {1.3, 0.9, horizon};
             const film::Rect window{10, 2, 14, 16};
-            const auto truth = tools::exact_picture(scene, m, window);
+            const auto truth = tools::converge::exact_picture(scene, m, window);
             REQUIRE(truth);
             const auto function = [&](double u, double v) {
                 return static_cast<double>(shaders::checker(scene.checker, 24, 16, u, v, 0));
@@ -157,8 +157,8 @@ TEST_CASE("a checkered plane's parts agree whichever window they are asked for i
     scene.image = scene::ImageKind::checker;
     scene.film = {32, 32, 0};
     for (const int m : {1, 4}) {
-        const auto whole = tools::exact_picture(scene, m, {0, 0, 32, 32});
-        const auto part = tools::exact_picture(scene, m, {5, 8, 9, 20});
+        const auto whole = tools::converge::exact_picture(scene, m, {0, 0, 32, 32});
+        const auto part = tools::converge::exact_picture(scene, m, {5, 8, 9, 20});
         REQUIRE(whole);
         REQUIRE(part);
         CHECK(whole->grey[3] == 0.5);
@@ -174,13 +174,14 @@ TEST_CASE("a ramp and a constant are themselves, and nothing is claimed of other
     scene.film = {8, 6, 0};
     scene.image = scene::ImageKind::constant;
     scene.constant.value = 0.3;
-    CHECK(tools::exact_picture(scene, 4, {0, 0, 8, 6})->grey == std::vector<double>(48, static_cast<double>(0.3f)));
+    CHECK(tools::converge::exact_picture(scene, 4, {0, 0, 8, 6})->grey ==
+          std::vector<double>(48, static_cast<double>(0.3f)));
     scene.image = scene::ImageKind::ramp;
     scene.ramp = {0, 2};
-    CHECK(tools::exact_picture(scene, 3, {0, 0, 8, 6})->grey[0] == doctest::Approx(0.5 - 2 * 3.5 / 8));
+    CHECK(tools::converge::exact_picture(scene, 3, {0, 0, 8, 6})->grey[0] == doctest::Approx(0.5 - 2 * 3.5 / 8));
     for (const auto kind : {scene::ImageKind::surface, scene::ImageKind::wheel}) {
         scene.image = kind;
-        CHECK(!tools::has_exact_picture(scene));
-        CHECK(!tools::exact_picture(scene, 4, {0, 0, 1, 1}));
+        CHECK(!tools::converge::has_exact_picture(scene));
+        CHECK(!tools::converge::exact_picture(scene, 4, {0, 0, 1, 1}));
     }
 }

@@ -17,7 +17,9 @@
 #include "tools/explain/pilot.h"
 #include "tools/job/settings_mark.h"
 
-using namespace strata::tools;
+using namespace strata::tools::cli;
+using namespace strata::tools::explain;
+using namespace strata::tools::job;
 using namespace strata;
 
 namespace {

@@ -6,8 +6,8 @@
 
 #include "tests/tools/explained_counts.h"
 
-using namespace strata::tools::testing;
-using namespace strata::tools;
+using namespace strata::tools::explain;
+using namespace strata::tools::explain::testing;
 using namespace strata;
 
 TEST_CASE("counts of every built-in scene lie within their intervals, at several sizes and N") {

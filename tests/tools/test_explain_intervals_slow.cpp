@@ -7,8 +7,8 @@
 #include "tests/tools/explained_counts.h"
 
 using namespace strata;
-using namespace strata::tools;
-using namespace strata::tools::testing;
+using namespace strata::tools::explain;
+using namespace strata::tools::explain::testing;
 
 TEST_CASE("counts of every built-in scene lie within their intervals, at larger sizes and N") {
     Verdicts verdicts;

@@ -66,7 +66,7 @@ struct Harmonic {
 Harmonic spoke_harmonic(const scene::Scene& scene) {
     const int side = scene.film.width;
     const image::Picture picture =
-        tools::render_picture(scene, {0, 0, side, side}, integrate::Tracer::fast, {}).picture;
+        tools::job::render_picture(scene, {0, 0, side, side}, integrate::Tracer::fast, {}).picture;
     std::complex<double> sum = 0;
     int count = 0;
     for (int y = 0; y < side; ++y) {

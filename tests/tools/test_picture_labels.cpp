@@ -4,7 +4,7 @@
 
 #include "tools/job/batch_progress.h"
 
-using namespace strata::tools;
+using namespace strata::tools::job;
 using namespace strata;
 
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/plot/plot.h"
+#include "tools/report/plot.h"
 
 #include <doctest/doctest.h>
 
@@ -10,18 +10,18 @@
 #include "src/image/read.h"
 #include "tests/image/scratch_folder.h"
 #include "tools/cli/process.h"
-#include "tools/plot/script.h"
+#include "tools/report/plot_script.h"
 
 namespace {
 
 using namespace strata;
-using tools::Plot;
-using tools::PlotAxis;
-using tools::PlotError;
-using tools::PlotFormat;
-using tools::PlotPanel;
-using tools::PlotSeries;
-using tools::PlotStyle;
+using tools::report::Plot;
+using tools::report::PlotAxis;
+using tools::report::PlotError;
+using tools::report::PlotFormat;
+using tools::report::PlotPanel;
+using tools::report::PlotSeries;
+using tools::report::PlotStyle;
 
 PlotPanel panel_of(std::vector<double> x, std::vector<double> y) {
     PlotPanel panel;
@@ -44,7 +44,7 @@ Plot plot_of(PlotPanel panel) {
     return plot;
 }
 
-std::string script_of(const Plot& plot) { return tools::plot_script(plot, PlotFormat::svg, "out.svg"); }
+std::string script_of(const Plot& plot) { return tools::report::plot_script(plot, PlotFormat::svg, "out.svg"); }
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -65,9 +65,9 @@ Plot everything() {
         panel.series.back().name = "Ünïcode n̂ₘ 'quoted'";
     }
     panel.series[3].point_size = {1, 2, 3, 4};
-    panel.markers.push_back({.kind = tools::PlotMarker::Kind::vertical, .at = 50, .label = "it's \n here"});
-    panel.markers.push_back({.kind = tools::PlotMarker::Kind::horizontal, .at = 0.05, .label = "limit"});
-    panel.legend = tools::PlotLegend::below;
+    panel.markers.push_back({.kind = tools::report::PlotMarker::Kind::vertical, .at = 50, .label = "it's \n here"});
+    panel.markers.push_back({.kind = tools::report::PlotMarker::Kind::horizontal, .at = 0.05, .label = "limit"});
+    panel.legend = tools::report::PlotLegend::below;
     plot.panels.assign(3, panel);
     plot.panels[1] = panel_of({0, 1}, {0, 1});
     plot.panels[1].equal_scale = true;
@@ -81,7 +81,7 @@ TEST_CASE("a gnuplot string ends nowhere but at its end, whatever the text") {
     std::string all;
     for (int code = 1; code < 256; ++code) all += static_cast<char>(code);
     for (const std::string& text : {std::string("it's"), std::string("''"), std::string("\\'"), all, std::string()}) {
-        const std::string quoted = tools::gnuplot_string(text);
+        const std::string quoted = tools::report::gnuplot_string(text);
         REQUIRE(quoted.size() >= 2);
         CHECK(quoted.front() == '\'');
         CHECK(quoted.back() == '\'');
@@ -116,8 +116,8 @@ TEST_CASE("log axes get tics at powers of ten, never too many") {
     REQUIRE(std::regex_search(script, tics, std::regex("set xtics \\(([^)]*)\\)")));
     const std::string list = tics[1];
     CHECK(std::count(list.begin(), list.end(), ',') < 10);
-    CHECK(tools::power_of_ten(-16) == "10⁻¹⁶");
-    CHECK(tools::power_of_ten(0) == "1");
+    CHECK(tools::report::power_of_ten(-16) == "10⁻¹⁶");
+    CHECK(tools::report::power_of_ten(0) == "1");
 }
 
 TEST_CASE("error bars on a log axis end above zero") {
@@ -131,7 +131,7 @@ TEST_CASE("what cannot be drawn is an error that names the place") {
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = HUGE_VAL;
     const auto refused = [](const Plot& plot) {
         try {
-            tools::check_plot(plot);
+            tools::report::check_plot(plot);
         } catch (const PlotError& error) {
             return std::string(error.what());
         }
@@ -164,7 +164,8 @@ TEST_CASE("what cannot be drawn is an error that names the place") {
 
 TEST_CASE("PNG and SVG are drawn, and equal plots are equal files") {
     const ScratchFolder folder;
-    for (const char* name : {"a.png", "b.png", "a.svg", "b.svg"}) tools::write_plot(everything(), folder / name);
+    for (const char* name : {"a.png", "b.png", "a.svg", "b.svg"})
+        tools::report::write_plot(everything(), folder / name);
     const std::string png = file_bytes(folder / "a.png"), svg = file_bytes(folder / "a.svg");
     CHECK(png == file_bytes(folder / "b.png"));
     CHECK(svg == file_bytes(folder / "b.svg"));
@@ -186,8 +187,8 @@ TEST_CASE("PNG and SVG are drawn, and equal plots are equal files") {
 TEST_CASE("a name that is neither PNG nor SVG and a folder that is not there are errors, and leave nothing") {
     const ScratchFolder folder;
     const Plot plot = plot_of(panel_of({1, 2}, {1, 2}));
-    CHECK_THROWS_AS(tools::write_plot(plot, folder / "a.pdf"), PlotError);
-    CHECK_THROWS(tools::write_plot(plot, folder / "nowhere/a.png"));
+    CHECK_THROWS_AS(tools::report::write_plot(plot, folder / "a.pdf"), PlotError);
+    CHECK_THROWS(tools::report::write_plot(plot, folder / "nowhere/a.png"));
     CHECK(folder.names().empty());
 }
 
@@ -196,6 +197,6 @@ TEST_CASE("without gnuplot the error names its package") {
     const std::string kept = path != nullptr ? path : "";
     const ScratchFolder folder;
     setenv("PATH", folder.path().c_str(), 1);
-    CHECK_THROWS_WITH_AS(tools::check_plotter(), doctest::Contains("gnuplot-nox"), tools::ProcessError);
+    CHECK_THROWS_WITH_AS(tools::report::check_plotter(), doctest::Contains("gnuplot-nox"), tools::cli::ProcessError);
     setenv("PATH", kept.c_str(), 1);
 }

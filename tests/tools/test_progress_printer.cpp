@@ -4,7 +4,7 @@
 
 #include "tools/cli/status_line.h"
 
-using namespace strata::tools;
+using namespace strata::tools::cli;
 
 TEST_CASE("durations and the progress line read well") {
     CHECK(duration_text(-1) == "0 s");

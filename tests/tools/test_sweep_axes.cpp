@@ -7,7 +7,8 @@
 
 #include "tools/cli/errors.h"
 
-using namespace strata::tools;
+using namespace strata::tools::cli;
+using namespace strata::tools::sweep;
 
 namespace {
 

@@ -7,13 +7,14 @@
 
 #include "src/image/image_error.h"
 #include "src/image/not_finite.h"
+#include "src/image/picture_metadata.h"
 #include "src/image/write.h"
 #include "src/parallel/cancel.h"
 #include "tools/animate/film.h"
 #include "tools/animate/frames_folder.h"
 #include "tools/animate/job.h"
 #include "tools/animate/sheet.h"
-#include "tools/cli/commands.h"
+#include "tools/cli/command_line.h"
 #include "tools/cli/endings.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/planned_files.h"
@@ -21,10 +22,9 @@
 #include "tools/cli/standard_output.h"
 #include "tools/job/already_there.h"
 #include "tools/job/batch_progress.h"
-#include "tools/job/picture_metadata.h"
 #include "tools/job/render_picture.h"
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
 namespace {
 
@@ -46,11 +46,11 @@ Todo files_to_write(const AnimateJob& job, int frame) {
     for (const FrameOutput& output : job.frames) {
         const fs::path path = output.pattern.path(frame);
         const bool replaces = job.overwrite && !output.is_scratch;
-        const Found found = replaces ? Found{} : find_picture(path, metadata, whole);
-        if (found.presence == Presence::same) continue;
-        if (found.presence == Presence::damaged && !job.quiet) tell_damaged(path, found);
-        if (found.presence == Presence::other && !output.is_scratch) {
-            throw UsageError(
+        const job::Found found = replaces ? job::Found{} : job::find_picture(path, metadata, whole);
+        if (found.presence == job::Presence::same) continue;
+        if (found.presence == job::Presence::damaged && !job.quiet) job::tell_damaged(path, found);
+        if (found.presence == job::Presence::other && !output.is_scratch) {
+            throw cli::UsageError(
                 fmt::format("{} is there and is not the frame asked for: {}; allowed: --overwrite, or "
                             "another -o",
                             path.string(), found.why));
@@ -101,7 +101,7 @@ class Animator {
     double total() const {
         double a_frame = 0;
         for (const scene::Scene& scene : frame_scenes(job_, job_.range.first())) {
-            a_frame += expected_rays(scene, window(scene));
+            a_frame += job::expected_rays(scene, window(scene));
         }
         return a_frame * static_cast<double>(work_.size());
     }
@@ -110,10 +110,10 @@ class Animator {
         std::vector<image::Picture> pictures;
         const std::vector<scene::Scene> scenes = frame_scenes(job_, todo.frame);
         for (const scene::Scene& scene : scenes) {
-            const double weight = expected_rays(scene, window(scene));
-            RenderedPicture rendered =
-                render_picture(scene, window(scene), parse_tracer(job_.tracer),
-                               {.threads = job_.threads, .on_progress = progress_.next(weight), .cancel = &cancel_});
+            const double weight = job::expected_rays(scene, window(scene));
+            job::RenderedPicture rendered = job::render_picture(
+                scene, window(scene), cli::parse_tracer(job_.tracer),
+                {.threads = job_.threads, .on_progress = progress_.next(weight), .cancel = &cancel_});
             if (rendered.result.cancelled) {
                 printer_.clear();
                 return false;
@@ -129,7 +129,7 @@ class Animator {
         const image::Metadata metadata = frame_metadata(job_, todo.frame);
         if (job_.columns.empty()) {
             image::WriteOptions options = job_.write;
-            options.frames_per_second = frame_rate(scenes.front());
+            options.frames_per_second = image::frame_rate(scenes.front());
             write_each(todo,
                        [&](const fs::path& path) { image::write_picture(path, pictures.front(), metadata, options); });
             return;
@@ -150,7 +150,7 @@ class Animator {
     void write_each(const Todo& todo, const Write& write) {
         bool any_written = false;
         for (const fs::path& path : todo.missing) {
-            const bool written = is_written(path, [&] { write(path); });
+            const bool written = cli::is_written(path, [&] { write(path); });
             any_written |= written;
             all_written_ &= written;
             const bool is_source =
@@ -164,9 +164,9 @@ class Animator {
 
     const AnimateJob& job_;
     const parallel::CancelToken& cancel_;
-    ProgressPrinter printer_;
+    cli::ProgressPrinter printer_;
     std::vector<Todo> work_;
-    BatchProgress progress_;
+    job::BatchProgress progress_;
     int rendered_ = 0;
     std::uint64_t unresolved_ = 0;
     int failed_in_a_row_ = 0;
@@ -199,12 +199,13 @@ bool make_films(const AnimateJob& job, std::list<FilmOutput>& films, const paral
         } catch (const std::exception& error) {
             // The signal that stopped this program stopped ffmpeg too.
             if (cancel.requested()) return false;
-            print_error(message_of(error));
+            cli::print_error(cli::message_of(error));
             all = false;
             continue;
         }
         if (cancel.requested()) return false;
-        if (!job.quiet) print_out(fmt::format("wrote    {} ({})\n", film.path.string(), described(timing, job.range)));
+        if (!job.quiet)
+            cli::print_out(fmt::format("wrote    {} ({})\n", film.path.string(), described(timing, job.range)));
     }
     return all;
 }
@@ -212,22 +213,24 @@ bool make_films(const AnimateJob& job, std::list<FilmOutput>& films, const paral
 void say_what_was_done(const AnimateJob& job, const Animator& animator) {
     if (job.quiet) return;
     if (animator.unresolved() > 0) {
-        print_error(fmt::format("warning: {} rays were not settled within {} steps; drawn in magenta, or as shadow",
-                                animator.unresolved(), trace::kStepLimit));
+        cli::print_error(
+            fmt::format("warning: {} rays were not settled within {} steps; drawn in magenta, or as shadow",
+                        animator.unresolved(), trace::kStepLimit));
     }
-    print_out(fmt::format("frames   {} rendered, {} kept\n", animator.rendered(), animator.kept()));
+    cli::print_out(fmt::format("frames   {} rendered, {} kept\n", animator.rendered(), animator.kept()));
     for (const FrameOutput& output : job.frames) {
         if (output.is_scratch || !animator.all_written()) continue;
-        print_out(fmt::format("wrote    {}\n", output.pattern.text()));
+        cli::print_out(fmt::format("wrote    {}\n", output.pattern.text()));
     }
 }
 
 int stopped(const AnimateJob& job, const Animator& animator) {
     if (!job.quiet) {
-        print_out(fmt::format("stopped  after {} of {} frames, which are kept; the same command goes on from there\n",
-                              animator.rendered() + animator.kept(), job.range.count()));
+        cli::print_out(
+            fmt::format("stopped  after {} of {} frames, which are kept; the same command goes on from there\n",
+                        animator.rendered() + animator.kept(), job.range.count()));
     }
-    return kExitSignal + parallel::cancelling_signal();
+    return cli::kExitSignal + parallel::cancelling_signal();
 }
 
 int animate_command(const AnimateRequest& request) {
@@ -244,16 +247,16 @@ int animate_command(const AnimateRequest& request) {
     bool all_written = animator.all_written();
     if (animator.has_film_source() && !films.empty()) {
         const bool all_made = make_films(job, films, cancel);
-        if (cancel.requested()) return kExitSignal + parallel::cancelling_signal();
+        if (cancel.requested()) return cli::kExitSignal + parallel::cancelling_signal();
         if (all_made) remove_scratch_frames(job);
         all_written &= all_made;
     } else if (!films.empty()) {
-        print_error("no film was made: some of its frames could not be written");
+        cli::print_error("no film was made: some of its frames could not be written");
     }
-    return all_written ? 0 : kExitRuntime;
+    return all_written ? 0 : cli::kExitRuntime;
 }
 
-void add_column_options(Command& command, AnimateRequest& request) {
+void add_column_options(cli::Command& command, AnimateRequest& request) {
     command
         .add_option("--columns", request.columns,
                     "Pictures side by side, their settings between ';', as \"none; N=4 m=4; shutter.open_s=0.02 l=4 "
@@ -266,8 +269,8 @@ void add_column_options(Command& command, AnimateRequest& request) {
 
 }  // namespace
 
-void add_animate_command(Command& program, int& exit_code) {
-    Command* command = program.add_subcommand("animate", "Render numbered frames and films");
+void add_command(cli::Command& program, int& exit_code) {
+    cli::Command* command = program.add_subcommand("animate", "Render numbered frames and films");
     auto request = std::make_shared<AnimateRequest>();
     request->scene.add_to(*command);
     command
@@ -312,9 +315,10 @@ void add_animate_command(Command& program, int& exit_code) {
         "  strata animate wheel --columns \"none; l=1; l=4\" --size 320x320 -o wheel.gif\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 129, 130 or 143 interrupted.");
     command->callback([request, command, &exit_code] {
-        if (command->count("--frame") > 0) throw UsageError("--frame: allowed: --frames A-B, or --frames A for one");
+        if (command->count("--frame") > 0)
+            throw cli::UsageError("--frame: allowed: --frames A-B, or --frames A for one");
         exit_code = animate_command(*request);
     });
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

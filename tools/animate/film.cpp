@@ -10,7 +10,7 @@
 #include "tools/cli/process.h"
 #include "tools/cli/temporary_folder.h"
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
 namespace fs = std::filesystem;
 
@@ -66,7 +66,7 @@ class FramesInARow {
             fs::create_symlink(fs::absolute(frames.path(numbers[i])), folder_.path() / fmt::format("{}.png", i), error);
         }
         if (!error) return;
-        throw ProcessError(fmt::format("no links in \"{}\": {}", folder_.path().string(), error.message()));
+        throw cli::ProcessError(fmt::format("no links in \"{}\": {}", folder_.path().string(), error.message()));
     }
 
     std::string ffmpeg_pattern() const {
@@ -76,7 +76,7 @@ class FramesInARow {
     }
 
   private:
-    TemporaryFolder folder_{"film"};
+    cli::TemporaryFolder folder_{"film"};
 };
 
 }  // namespace
@@ -88,7 +88,7 @@ bool is_film(const fs::path& path) {
 
 void encode_film(const fs::path& film, const image::ScratchFile& file, const FramePattern& frames,
                  const FilmTiming& timing, int width, int height) {
-    const fs::path ffmpeg = find_program("ffmpeg", "ffmpeg", "video");
+    const fs::path ffmpeg = cli::find_program("ffmpeg", "ffmpeg", "video");
     const FramesInARow in_a_row(frames, timing.frames);
     Words words{"-nostdin",
                 "-hide_banner",
@@ -116,7 +116,7 @@ void encode_film(const fs::path& film, const image::ScratchFile& file, const Fra
     const Words chosen = codec(film, timing, width, height);
     words.insert(words.end(), chosen.begin(), chosen.end());
     words.push_back("file:" + file.path().string());
-    run_program(ffmpeg, words);
+    cli::run_program(ffmpeg, words);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

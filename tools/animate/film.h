@@ -7,7 +7,7 @@
 #include "tools/animate/frames.h"
 #include "tools/animate/timing.h"
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
 // By extension: .mp4 (H.264), .webm (VP9) or .gif (256 colours of its own, plays for ever).
 bool is_film(const std::filesystem::path& path);
@@ -17,4 +17,4 @@ bool is_film(const std::filesystem::path& path);
 void encode_film(const std::filesystem::path& film, const image::ScratchFile& file, const FramePattern& frames,
                  const FilmTiming& timing, int width, int height);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

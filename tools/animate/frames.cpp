@@ -7,7 +7,7 @@
 #include "src/image/file_paths.h"
 #include "tools/cli/errors.h"
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
 namespace fs = std::filesystem;
 
@@ -38,4 +38,4 @@ std::string FramePattern::text() const {
     return (folder_ / (before_ + std::string(static_cast<std::size_t>(digits_), '#') + after_)).string();
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
 // Names of numbered files: "out/name.####.png"; each '#' is a digit at least, the last run of them if there are
 // several. Without '#', "name.png" stands for "name.####.png".
@@ -23,4 +23,4 @@ class FramePattern {
     int digits_ = 4;
 };
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

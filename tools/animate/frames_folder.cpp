@@ -13,7 +13,7 @@
 #include "src/image/image_error.h"
 #include "src/image/scratch_files.h"
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
 namespace fs = std::filesystem;
 
@@ -68,4 +68,4 @@ FramesFolder::~FramesFolder() {
     image::forget_scratch_file(path_.c_str());
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
 // FILM.frames beside the film, made if need be: what an interrupted run left there is gone on from. While another run
 // has it - it locks a file in it - or something else has the name, FILM-2.frames and so on. Gone with this object if
@@ -25,4 +25,4 @@ class FramesFolder {
     int lock_ = -1;
 };
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

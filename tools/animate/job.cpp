@@ -8,6 +8,7 @@
 #include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
+#include "src/image/picture_metadata.h"
 #include "src/image/stream_target.h"
 #include "src/image/text.h"
 #include "src/scene/key_text.h"
@@ -17,9 +18,8 @@
 #include "tools/cli/errors.h"
 #include "tools/cli/process.h"
 #include "tools/job/clipping.h"
-#include "tools/job/picture_metadata.h"
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
 namespace fs = std::filesystem;
 
@@ -29,7 +29,7 @@ constexpr int kMostThreads = 1024;
 constexpr const char* kExtensions = ".exr, .png, .tif or .jpg for frames, .mp4, .webm or .gif for films";
 
 // What the paper's animations compare, of the built-in scenes that are made for them.
-std::string default_columns(const LoadedScene& loaded) {
+std::string default_columns(const cli::LoadedScene& loaded) {
     const scene::Sampling& sampling = loaded.scene.sampling;
     if (loaded.source == "isosurface") {
         return fmt::format("none label=\"no antialiasing\"; scene label=\"in space and time: m = {}, l = {}, N = {}\"",
@@ -39,28 +39,28 @@ std::string default_columns(const LoadedScene& loaded) {
     return {};
 }
 
-std::string choose_columns(const AnimateRequest& request, const LoadedScene& loaded) {
+std::string choose_columns(const AnimateRequest& request, const cli::LoadedScene& loaded) {
     const bool has_sides = !request.left.empty() || !request.right.empty();
     if (!request.columns.empty() && has_sides) {
-        throw UsageError("--columns: allowed: without --left and --right, which are another way to say it");
+        throw cli::UsageError("--columns: allowed: without --left and --right, which are another way to say it");
     }
     if (!request.columns.empty()) return request.columns;
     if (!has_sides) return default_columns(loaded);
     const std::string left = request.left.empty() ? "none" : request.left;
     const std::string right = request.right.empty() ? "scene" : request.right;
-    parse_column("--left", left);
-    parse_column("--right", right);
+    job::parse_column("--left", left);
+    job::parse_column("--right", right);
     return left + "; " + right;
 }
 
 void check_columns(const AnimateJob& job) {
     const scene::Scene& base = job.scene;
-    for (const ColumnSettings& column : job.columns) {
-        const scene::Scene scene = with_settings(base, column, "--columns");
+    for (const job::ColumnSettings& column : job.columns) {
+        const scene::Scene scene = job::with_settings(base, column, "--columns");
         const bool same_frame = scene.film.width == base.film.width && scene.film.height == base.film.height;
         const bool same_time = scene.shutter.fps == base.shutter.fps && scene.shutter.frame == base.shutter.frame;
         if (same_frame && same_time) continue;
-        throw UsageError(
+        throw cli::UsageError(
             fmt::format("--columns '{}': allowed: the same film.width, film.height, shutter.fps and "
                         "shutter.frame for all columns; --size and --frames set them",
                         scene::excerpt(column.text)));
@@ -70,15 +70,15 @@ void check_columns(const AnimateJob& job) {
 image::ExrFormat parse_exr_format(const std::string& name) {
     if (name == "half") return image::ExrFormat::half;
     if (name == "float") return image::ExrFormat::floating;
-    throw UsageError(fmt::format("--format {}: allowed: half, float", scene::excerpt(name)));
+    throw cli::UsageError(fmt::format("--format {}: allowed: half, float", scene::excerpt(name)));
 }
 
 bool is_png(const FrameOutput& output) { return image::extension_of(output.pattern.path(0)) == ".png"; }
 
 void add_output(AnimateJob& job, const fs::path& typed) {
-    if (!typed.has_filename()) throw UsageError(fmt::format("-o {}: names no file", typed.string()));
+    if (!typed.has_filename()) throw cli::UsageError(fmt::format("-o {}: names no file", typed.string()));
     if (image::stream_target(typed)) {
-        throw UsageError(fmt::format(
+        throw cli::UsageError(fmt::format(
             "-o {}: allowed: files; frames are numbered ones, and films are put in place whole", typed.string()));
     }
     if (is_film(typed)) {
@@ -91,8 +91,8 @@ void add_output(AnimateJob& job, const fs::path& typed) {
         if (!job.columns.empty()) image::check_canvas_format(typed);
         image::check_size(typed, job.width, job.height);
     } catch (const image::ImageError& error) {
-        if (job.columns.empty()) throw UsageError(fmt::format("{} (allowed: {})", error.what(), kExtensions));
-        throw UsageError(
+        if (job.columns.empty()) throw cli::UsageError(fmt::format("{} (allowed: {})", error.what(), kExtensions));
+        throw cli::UsageError(
             fmt::format("{} (of pictures side by side: .png, .tif or .jpg, .mp4, .webm or .gif)", error.what()));
     }
     FrameOutput output{.pattern = FramePattern(typed)};
@@ -103,7 +103,7 @@ void add_output(AnimateJob& job, const fs::path& typed) {
     };
     if (is_same(job.range.first()) && is_same(job.range.last())) return;
     if (is_same(job.range.first()) || is_same(job.range.last())) {
-        throw UsageError(
+        throw cli::UsageError(
             fmt::format("-o {}: allowed: files of its own; some frames of another -o are the same", typed.string()));
     }
     job.frames.push_back(std::move(output));
@@ -124,7 +124,7 @@ void check_frame(const AnimateJob& job, const fs::path& path, int frame) {
     try {
         image::check_encodable(path, whole, frame_metadata(job, frame), job.write);
     } catch (const image::ImageError& error) {
-        throw UsageError(error.what());
+        throw cli::UsageError(error.what());
     }
 }
 
@@ -137,7 +137,7 @@ void check_paths(const AnimateJob& job) {
         for (const int frame : {job.range.first(), job.range.last()})
             check_frame(job, output.pattern.path(frame), frame);
     }
-    if (!job.films.empty()) find_program("ffmpeg", "ffmpeg", "video");
+    if (!job.films.empty()) cli::find_program("ffmpeg", "ffmpeg", "video");
 }
 
 // Every frame has its own time: what is within reach of one may not be of another.
@@ -166,19 +166,19 @@ AnimateJob prepare_animation(const AnimateRequest& request) {
     AnimateJob job;
     job.overwrite = request.overwrite;
     job.quiet = request.quiet;
-    job.threads = parse_integer("--threads", request.threads, 0, kMostThreads);
-    if (!request.simd.empty()) use_simd_target(request.simd);
+    job.threads = cli::parse_integer("--threads", request.threads, 0, kMostThreads);
+    if (!request.simd.empty()) cli::use_simd_target(request.simd);
     job.tracer = request.tracer;
-    parse_tracer(job.tracer);
-    const LoadedScene loaded = request.scene.load();
+    cli::parse_tracer(job.tracer);
+    const cli::LoadedScene loaded = request.scene.load();
     job.scene = loaded.scene;
     job.format = request.format.empty() ? "half" : request.format;
     job.write = {.colour = image::colour_out(job.scene.film), .exr_format = parse_exr_format(job.format)};
-    if (!job.quiet) job.write.warn = warn_of_clipping;
+    if (!job.quiet) job.write.warn = job::warn_of_clipping;
     job.range = request.frames.empty() ? default_frames(job.scene) : parse_frames(request.frames);
     job.scene.shutter.frame = job.range.first();
     job.columns_text = choose_columns(request, loaded);
-    if (!job.columns_text.empty()) job.columns = parse_columns("--columns", job.columns_text);
+    if (!job.columns_text.empty()) job.columns = job::parse_columns("--columns", job.columns_text);
     check_columns(job);
     check_scenes(job);
     choose_size(job);
@@ -199,8 +199,8 @@ std::vector<scene::Scene> frame_scenes(const AnimateJob& job, int frame) {
     scene.shutter.frame = frame;
     if (job.columns.empty()) return {scene};
     std::vector<scene::Scene> scenes;
-    for (const ColumnSettings& column : job.columns) {
-        scenes.push_back(with_settings(scene, column, fmt::format("frame {}: --columns", frame)));
+    for (const job::ColumnSettings& column : job.columns) {
+        scenes.push_back(job::with_settings(scene, column, fmt::format("frame {}: --columns", frame)));
     }
     return scenes;
 }
@@ -209,9 +209,9 @@ image::Metadata frame_metadata(const AnimateJob& job, int frame) {
     scene::Scene scene = job.scene;
     scene.shutter.frame = frame;
     const film::Rect whole{0, 0, scene.film.width, scene.film.height};
-    image::Metadata metadata = picture_metadata(scene, whole, job.tracer, job.format);
+    image::Metadata metadata = image::picture_metadata(scene, whole, job.tracer, job.format);
     if (!job.columns.empty()) metadata.set("strata:columns", job.columns_text);
     return metadata;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

@@ -12,11 +12,11 @@
 #include "tools/cli/scene_argument.h"
 #include "tools/job/column_settings.h"
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
 // The options as typed; empty where there is none.
 struct AnimateRequest {
-    SceneArgument scene;
+    cli::SceneArgument scene;
     std::vector<std::string> outputs;
     std::string frames, columns, left, right, tracer = "fast", simd, format, threads = "0";
     bool overwrite = false, quiet = false;
@@ -30,8 +30,8 @@ struct FrameOutput {
 
 struct AnimateJob {
     scene::Scene scene;
-    std::vector<ColumnSettings> columns;  // side by side, with labels; empty: the scene alone
-    std::string columns_text;             // all of them as typed
+    std::vector<job::ColumnSettings> columns;  // side by side, with labels; empty: the scene alone
+    std::string columns_text;                  // all of them as typed
     FrameList range;
     std::vector<FrameOutput> frames;
     std::vector<std::filesystem::path> films;
@@ -61,4 +61,4 @@ std::vector<scene::Scene> frame_scenes(const AnimateJob& job, int frame);
 // What a frame's file says of itself.
 image::Metadata frame_metadata(const AnimateJob& job, int frame);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

@@ -10,7 +10,7 @@
 #include "tools/cli/errors.h"
 #include "tools/cli/scene_argument.h"
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
 namespace {
 
@@ -41,15 +41,16 @@ Part parse_part(const std::string& all, const std::string& text) {
     const auto times = is_range ? text.find('x', dash) : std::string::npos;
     Part part;
     try {
-        part.first = parse_integer("--frames", text.substr(0, dash), 0, kLastFrame);
-        part.last =
-            is_range ? parse_integer("--frames", text.substr(dash + 1, times - dash - 1), 0, kLastFrame) : part.first;
-        if (times != std::string::npos) part.step = parse_integer("--frames", text.substr(times + 1), 1, kLastFrame);
-    } catch (const UsageError&) {
-        throw UsageError(fmt::format("--frames {}: {}", scene::excerpt(all), allowed));
+        part.first = cli::parse_integer("--frames", text.substr(0, dash), 0, kLastFrame);
+        part.last = is_range ? cli::parse_integer("--frames", text.substr(dash + 1, times - dash - 1), 0, kLastFrame)
+                             : part.first;
+        if (times != std::string::npos)
+            part.step = cli::parse_integer("--frames", text.substr(times + 1), 1, kLastFrame);
+    } catch (const cli::UsageError&) {
+        throw cli::UsageError(fmt::format("--frames {}: {}", scene::excerpt(all), allowed));
     }
     if (part.last < part.first) {
-        throw UsageError(fmt::format("--frames {}: ends before it begins, {}", scene::excerpt(all), allowed));
+        throw cli::UsageError(fmt::format("--frames {}: ends before it begins, {}", scene::excerpt(all), allowed));
     }
     return part;
 }
@@ -84,7 +85,7 @@ FrameList parse_frames(const std::string& text) {
         const Part part = parse_part(text, text.substr(start, end - start));
         const std::size_t count = numbers.size() + static_cast<std::size_t>((part.last - part.first) / part.step) + 1;
         if (count > kMostFrames) {
-            throw UsageError(
+            throw cli::UsageError(
                 fmt::format("--frames {}: {} frames, allowed: up to {}", scene::excerpt(text), count, kMostFrames));
         }
         for (int i = 0; i <= (part.last - part.first) / part.step; ++i) numbers.push_back(part.first + i * part.step);
@@ -109,9 +110,9 @@ FrameList default_frames(const scene::Scene& scene) {
         const double last = std::ceil(scene.camera.keys.back().time_s * scene.shutter.fps - 1e-9);
         if (last >= 1.0 && last < kMostFrames) return FrameList::range(0, static_cast<int>(last));
     }
-    throw UsageError(
+    throw cli::UsageError(
         "--frames is needed: nothing in this scene tells where it ends (camera.keys do, and a surface.spin_deg_per_s "
         "or wheel.turns_per_s that loops in a whole number of frames)");
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

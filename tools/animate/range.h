@@ -7,7 +7,7 @@
 
 #include "src/scene/scene.h"
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
 // Numbers of frames, ascending, each once; one at least.
 class FrameList {
@@ -44,4 +44,4 @@ std::optional<int> loop_frames(const scene::Scene& scene);
 // One loop from frame 0, or up to the last camera key. Throws UsageError, saying so, where there is neither.
 FrameList default_frames(const scene::Scene& scene);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

@@ -4,9 +4,9 @@
 
 #include "src/image/sheet.h"
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
-image::Canvas side_by_side(const std::vector<ColumnSettings>& columns, std::vector<image::Canvas> pictures) {
+image::Canvas side_by_side(const std::vector<job::ColumnSettings>& columns, std::vector<image::Canvas> pictures) {
     image::Sheet sheet;
     sheet.rows.resize(1);
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -16,4 +16,4 @@ image::Canvas side_by_side(const std::vector<ColumnSettings>& columns, std::vect
     return image::compose(sheet);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

@@ -6,9 +6,9 @@
 #include "src/image/canvas.h"
 #include "tools/job/column_settings.h"
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
 // One picture a column, under its label. The size depends on the labels and the pictures' sizes alone.
-image::Canvas side_by_side(const std::vector<ColumnSettings>& columns, std::vector<image::Canvas> pictures);
+image::Canvas side_by_side(const std::vector<job::ColumnSettings>& columns, std::vector<image::Canvas> pictures);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

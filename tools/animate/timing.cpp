@@ -9,7 +9,7 @@
 #include "tools/animate/film.h"
 #include "tools/cli/errors.h"
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
 namespace fs = std::filesystem;
 
@@ -53,7 +53,7 @@ FilmTiming film_timing(const fs::path& film, const FrameList& frames, const scen
 
 void check_timing(const fs::path& film, const FrameList& frames, const scene::Rate& rate) {
     if (!frames.step()) {
-        throw UsageError(
+        throw cli::UsageError(
             fmt::format("-o {}: of unevenly spread frames a film would not play in time; allowed: frames FIRST-LAST or "
                         "FIRST-LASTxSTEP, or pictures",
                         film.string()));
@@ -61,13 +61,14 @@ void check_timing(const fs::path& film, const FrameList& frames, const scene::Ra
     const double shown = rate.every(*frames.step());
     const double least = is_gif(film) ? 100.0 / kMostDelay_cs : 0.0;
     if (shown < least) {
-        throw UsageError(
+        throw cli::UsageError(
             fmt::format("-o {}: {:g} frames/s, allowed in a GIF: {:.2g} or more, a frame lasts {:.0f} s at most",
                         film.string(), shown, least, kMostDelay_cs / 100.0));
     }
     if (image::extension_of(film) == ".webm" && shown > kMostWebmRate) {
-        throw UsageError(fmt::format("-o {}: {:g} frames/s, allowed in WebM: up to {:g}, its times are milliseconds",
-                                     film.string(), shown, kMostWebmRate));
+        throw cli::UsageError(
+            fmt::format("-o {}: {:g} frames/s, allowed in WebM: up to {:g}, its times are milliseconds", film.string(),
+                        shown, kMostWebmRate));
     }
 }
 
@@ -78,4 +79,4 @@ std::string described(const FilmTiming& timing, const FrameList& frames) {
     return fmt::format("{} of {} frames, {}: a GIF shows up to {} a second", count, all, time, 100 / kLeastDelay_cs);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

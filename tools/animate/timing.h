@@ -9,7 +9,7 @@
 #include "src/scene/rate.h"
 #include "tools/animate/range.h"
 
-namespace strata::tools {
+namespace strata::tools::animate {
 
 struct FilmTiming {
     std::vector<int> frames;  // those that the film has
@@ -30,4 +30,4 @@ void check_timing(const std::filesystem::path& film, const FrameList& frames, co
 // "5 frames, 0.2 s", and which were left out.
 std::string described(const FilmTiming& timing, const FrameList& frames);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::animate

@@ -14,12 +14,12 @@ namespace strata::tools::bench {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
-    throw UsageError(fmt::format("--against {}: {}", file.string(), why));
+    throw cli::UsageError(fmt::format("--against {}: {}", file.string(), why));
 }
 
 nlohmann::json parse(const std::filesystem::path& file) {
     std::string why;
-    const auto text = read_text_file(file, why);
+    const auto text = cli::read_text_file(file, why);
     if (!text) refuse(file, fmt::format("cannot be read: {}; allowed: a bench.json of strata bench", why));
     nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
     if (json.is_discarded()) refuse(file, "is no JSON; allowed: a bench.json of strata bench");

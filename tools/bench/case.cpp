@@ -23,7 +23,7 @@ std::string Case::id() const {
 std::string Case::mark() const {
     std::uint64_t sum = noise::mix64(static_cast<std::uint64_t>(threads));
     for (const film::Rect& window : subset.windows) {
-        sum = noise::mix64(sum + std::stoull(settings_mark(scene, window, tracer_word(tracer)), nullptr, 16));
+        sum = noise::mix64(sum + std::stoull(job::settings_mark(scene, window, tracer_word(tracer)), nullptr, 16));
     }
     return fmt::format("{:016x}", sum);
 }

@@ -11,19 +11,18 @@
 #include "tools/bench/peers.h"
 #include "tools/bench/report.h"
 #include "tools/bench/run.h"
-#include "tools/cli/commands.h"
+#include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/planned_files.h"
 #include "tools/cli/progress_printer.h"
 #include "tools/cli/scene_argument.h"
 #include "tools/cli/standard_output.h"
 
-namespace strata::tools {
+namespace strata::tools::bench {
 
 namespace {
 
 namespace fs = std::filesystem;
-using bench::Section;
 
 constexpr int kMostRays = 1'000'000'000;
 
@@ -35,9 +34,9 @@ struct BenchRequest {
 std::vector<Section> chosen_sections(const BenchRequest& request) {
     std::vector<Section> sections;
     if (!request.only.empty()) {
-        sections = bench::parse_sections(request.only);
+        sections = parse_sections(request.only);
     } else {
-        for (const bench::SectionName& name : bench::section_names()) {
+        for (const SectionName& name : section_names()) {
             if (name.by_default) sections.push_back(name.section);
         }
     }
@@ -47,17 +46,17 @@ std::vector<Section> chosen_sections(const BenchRequest& request) {
     return sections;
 }
 
-bench::PlanSettings parse_settings(const BenchRequest& request) {
-    bench::PlanSettings settings{chosen_sections(request), request.quick, request.whole, {}};
-    if (!request.rays.empty()) settings.rays = parse_integer("--rays", request.rays, 1, kMostRays);
+PlanSettings parse_settings(const BenchRequest& request) {
+    PlanSettings settings{chosen_sections(request), request.quick, request.whole, {}};
+    if (!request.rays.empty()) settings.rays = cli::parse_integer("--rays", request.rays, 1, kMostRays);
     if (settings.rays && settings.whole) {
-        throw UsageError(
+        throw cli::UsageError(
             "--whole and --rays: allowed: one of them; --whole measures whole frames, whatever their rays");
     }
     return settings;
 }
 
-fs::path prepare_folder(const BenchRequest& request, PlannedFiles& files) {
+fs::path prepare_folder(const BenchRequest& request, cli::PlannedFiles& files) {
     fs::path path(request.folder);
     std::error_code error;
     fs::create_directories(path, error);
@@ -65,52 +64,52 @@ fs::path prepare_folder(const BenchRequest& request, PlannedFiles& files) {
         throw image::ImageError(fmt::format("-o {}: cannot make this folder: {}", path.string(),
                                             error ? error.message() : "a file is in its place"));
     }
-    for (const fs::path& file : bench::report_files(path)) files.plan(file);
-    check_plotter();
+    for (const fs::path& file : report_files(path)) files.plan(file);
+    report::check_plotter();
     return path;
 }
 
 int bench_command(const BenchRequest& request) {
     static parallel::CancelToken cancel;
     parallel::cancel_on_signals(cancel);
-    if (!request.simd.empty()) use_simd_target(request.simd);
+    if (!request.simd.empty()) cli::use_simd_target(request.simd);
     const int rounds =
-        request.repeat.empty() ? (request.quick ? 1 : 3) : parse_integer("--repeat", request.repeat, 1, 1000);
-    const bench::Plan plan = bench::make_plan(parse_settings(request));
-    std::optional<bench::EarlierRun> earlier;
+        request.repeat.empty() ? (request.quick ? 1 : 3) : cli::parse_integer("--repeat", request.repeat, 1, 1000);
+    const Plan plan = make_plan(parse_settings(request));
+    std::optional<EarlierRun> earlier;
     if (!request.against.empty()) {
-        earlier = bench::read_earlier(request.against);
-        bench::check_comparable(*earlier, plan);
+        earlier = read_earlier(request.against);
+        check_comparable(*earlier, plan);
     }
     fs::path folder;
-    PlannedFiles files;
+    cli::PlannedFiles files;
     if (!request.no_files) folder = prepare_folder(request, files);
-    if (plan.has(Section::peers)) bench::install_peers();
+    if (plan.has(Section::peers)) install_peers();
 
-    ProgressPrinter progress(request.quiet);
-    const bench::Results results = bench::run(plan, rounds, progress.callback(), cancel);
+    cli::ProgressPrinter progress(request.quiet);
+    const Results results = run(plan, rounds, progress.callback(), cancel);
     progress.clear();
     const bool interrupted = cancel.requested();
-    const std::vector<bench::Figure> figures = bench::figures_of(results);
-    std::vector<bench::Comparison> comparisons;
-    if (earlier) comparisons = bench::compare(*earlier, results.measurements);
+    const std::vector<Figure> figures = figures_of(results);
+    std::vector<Comparison> comparisons;
+    if (earlier) comparisons = compare(*earlier, results.measurements);
     if (!request.quiet && (!interrupted || results.rounds > 0)) {
-        print_out(bench::text_report(results, figures, comparisons));
+        cli::print_out(text_report(results, figures, comparisons));
     }
     if (interrupted) {
-        print_error(fmt::format("interrupted after {} of {} rounds; no file was written", results.rounds, rounds));
-        return kExitSignal + parallel::cancelling_signal();
+        cli::print_error(fmt::format("interrupted after {} of {} rounds; no file was written", results.rounds, rounds));
+        return cli::kExitSignal + parallel::cancelling_signal();
     }
     if (request.no_files) return 0;
-    bench::write_report(folder, results, figures, comparisons, files);
-    if (!files.all_written()) return kExitRuntime;
-    if (!request.quiet) print_out(fmt::format("\nwrote    {}\n", folder.string()));
+    write_report(folder, results, figures, comparisons, files);
+    if (!files.all_written()) return cli::kExitRuntime;
+    if (!request.quiet) cli::print_out(fmt::format("\nwrote    {}\n", folder.string()));
     return 0;
 }
 
 std::string sections_text() {
     std::string text;
-    for (const bench::SectionName& name : bench::section_names()) {
+    for (const SectionName& name : section_names()) {
         text += fmt::format("  {:<11} {}{}\n", name.name, name.meaning, name.by_default ? "" : " (only when named)");
     }
     return text;
@@ -118,8 +117,8 @@ std::string sections_text() {
 
 }  // namespace
 
-void add_bench_command(Command& program, int& exit_code) {
-    Command* command = program.add_subcommand("bench", "Measure the engine on fixed scenes, against its targets");
+void add_command(cli::Command& program, int& exit_code) {
+    cli::Command* command = program.add_subcommand("bench", "Measure the engine on fixed scenes, against its targets");
     auto request = std::make_shared<BenchRequest>();
     command->add_option("--only", request->only, "Only these sections, with commas between; see below")
         ->type_name("SECTION,...");
@@ -163,4 +162,4 @@ void add_bench_command(Command& program, int& exit_code) {
     command->callback([request, &exit_code] { exit_code = bench_command(*request); });
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::bench

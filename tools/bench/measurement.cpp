@@ -8,7 +8,7 @@
 
 #include "src/integrate/make_image.h"
 #include "src/render/render.h"
-#include "tools/converge/statistics.h"
+#include "tools/report/statistics.h"
 
 namespace strata::tools::bench {
 
@@ -23,7 +23,7 @@ bool same_work(const integrate::Counters& a, const integrate::Counters& b) {
 
 double pick_of(const std::vector<double>& values, Pick pick) {
     if (values.empty()) return 0;
-    return pick == Pick::least ? *std::ranges::min_element(values) : spread_of(values).median;
+    return pick == Pick::least ? *std::ranges::min_element(values) : report::spread_of(values).median;
 }
 
 double Measurement::ns_an_evaluation(Pick pick) const {

@@ -14,14 +14,14 @@ namespace {
 
 MemoryResult render_alone(const char* id, int width, int height) {
     MemoryResult row{.id = id, .width = width, .height = height};
-    const TemporaryFolder scratch("bench");
+    const cli::TemporaryFolder scratch("bench");
     const auto start = std::chrono::steady_clock::now();
     try {
-        const ProgramRun run = run_program(
+        const cli::ProgramRun run = cli::run_program(
             own_folder() / "strata", {"render", "hyperterrain", "--size", fmt::format("{}x{}", width, height), "-N",
                                       "1", "--quiet", "-o", (scratch.path() / "out.exr").string()});
         row.peak_bytes = run.peak_memory_bytes;
-    } catch (const ProcessError& error) {
+    } catch (const cli::ProcessError& error) {
         row.failure = error.what();
     }
     row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -57,7 +57,7 @@ fs::path companion() { return own_folder() / "strata_bench_embree"; }
 void install_peers() {
     if (fs::exists(companion())) return;
     // The companion is built where Embree is there.
-    if (install_packages(kPackages)) restart_rebuilt();
+    if (cli::install_packages(kPackages)) cli::restart_rebuilt();
 }
 
 Peers::Peers(const Plan& plan) : plan_(plan) {
@@ -69,8 +69,8 @@ Peers::Peers(const Plan& plan) : plan_(plan) {
 
 void Peers::find_programs() {
     try {
-        povray_ = find_program("povray", "povray", kPackages);
-    } catch (const ProcessError& error) {
+        povray_ = cli::find_program("povray", "povray", kPackages);
+    } catch (const cli::ProcessError& error) {
         missing_.emplace_back(error.what());
     }
     if (fs::exists(companion())) {
@@ -91,11 +91,11 @@ PeerResult& Peers::result(const std::string& id, const std::string& what) {
 
 void Peers::measure_povray(const Povray& variant) {
     const Size size = plan_.settings.quick ? Size{96, 54} : Size{480, 270};
-    const ProgramRun run =
-        run_program(povray_, {"+I" + (scratch_.path() / "scene.pov").string(), "-F", "-D", "-A", "-V", "+WT1",
-                              fmt::format("+W{}", size.width), fmt::format("+H{}", size.height),
-                              fmt::format("Declare=Gradient={}", variant.max_gradient),
-                              fmt::format("Declare=Shadows={}", variant.shadows ? 1 : 0)});
+    const cli::ProgramRun run =
+        cli::run_program(povray_, {"+I" + (scratch_.path() / "scene.pov").string(), "-F", "-D", "-A", "-V", "+WT1",
+                                   fmt::format("+W{}", size.width), fmt::format("+H{}", size.height),
+                                   fmt::format("Declare=Gradient={}", variant.max_gradient),
+                                   fmt::format("Declare=Shadows={}", variant.shadows ? 1 : 0)});
     PeerResult& row =
         result(variant.id, fmt::format("isosurface, max_gradient {}{}; {}x{}, one ray a pixel", variant.max_gradient,
                                        variant.shadows ? ", shadows" : "", size.width, size.height));
@@ -112,9 +112,9 @@ void Peers::measure_embree() {
     for (const film::Rect& w : what.subset.windows) {
         words.push_back(fmt::format("{},{},{},{}", w.x0, w.y0, w.x1, w.y1));
     }
-    const ProgramRun run = run_program(embree_, words);
+    const cli::ProgramRun run = cli::run_program(embree_, words);
     const auto json = nlohmann::json::parse(run.output, nullptr, false);
-    if (json.is_discarded()) throw ProcessError("strata_bench_embree: not understood:\n" + run.output);
+    if (json.is_discarded()) throw cli::ProcessError("strata_bench_embree: not understood:\n" + run.output);
     const std::string mesh = fmt::format("mesh of {0}x{0} vertices, the rays of '{1}'", vertices, what.id());
     PeerResult& one = result(kEmbreeOne, mesh + ", coherent flag");
     one.ns_a_ray.push_back(json.at("one_ns").get<double>());
@@ -135,7 +135,7 @@ bool Peers::measure_round(const parallel::CancelToken& cancel) {
             if (cancel.requested()) return false;
             if (!povray_.empty()) measure_povray(variant);
         }
-    } catch (const ProcessError&) {
+    } catch (const cli::ProcessError&) {
         // The signal that asks us to end has ended it too.
         if (cancel.requested()) return false;
         throw;

@@ -42,7 +42,7 @@ class Peers {
     PeerResult& result(const std::string& id, const std::string& what);
 
     Plan plan_;
-    TemporaryFolder scratch_{"bench"};
+    cli::TemporaryFolder scratch_{"bench"};
     std::filesystem::path povray_, embree_;  // empty: not there
     std::vector<PeerResult> results_;
     std::vector<std::string> missing_;

@@ -235,13 +235,13 @@ std::vector<Section> parse_sections(const std::string& text) {
         const auto found = std::ranges::find(known, word);
         if (found == known.end()) {
             const auto near = scene::nearest(word, known);
-            throw UsageError(fmt::format("--only: '{}' is no section, allowed: {}{}", scene::excerpt(word),
-                                         fmt::join(known, ", "),
-                                         near ? fmt::format("; did you mean '{}'?", *near) : ""));
+            throw cli::UsageError(fmt::format("--only: '{}' is no section, allowed: {}{}", scene::excerpt(word),
+                                              fmt::join(known, ", "),
+                                              near ? fmt::format("; did you mean '{}'?", *near) : ""));
         }
         const Section section = section_names()[static_cast<std::size_t>(found - known.begin())].section;
         if (std::ranges::find(sections, section) != sections.end()) {
-            throw UsageError(fmt::format("--only: '{}' is named twice", word));
+            throw cli::UsageError(fmt::format("--only: '{}' is named twice", word));
         }
         sections.push_back(section);
         start = end + 1;

@@ -66,7 +66,7 @@ double povray_trace_seconds(const std::string& output) {
         R"(Trace Time:[^)]*\)\s*using\s+\d+\s+thread\(s\)\s+with\s+([0-9.]+)\s+CPU-seconds)");
     std::smatch found;
     if (!std::regex_search(output, found, pattern)) {
-        throw ProcessError("povray: its statistics name no trace time:\n" + output);
+        throw cli::ProcessError("povray: its statistics name no trace time:\n" + output);
     }
     return std::stod(found[1].str());
 }

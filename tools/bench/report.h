@@ -9,7 +9,7 @@
 #include "tools/bench/figures.h"
 #include "tools/bench/results.h"
 #include "tools/cli/planned_files.h"
-#include "tools/plot/plot.h"
+#include "tools/report/plot.h"
 
 namespace strata::tools::bench {
 
@@ -21,13 +21,13 @@ std::string json_report(const Results& results, const std::vector<Figure>& figur
                         const std::vector<Comparison>& earlier);
 
 // A panel for each curve that was measured, and one of the time shares where they are known; no panel: nothing to draw.
-Plot plot_report(const Results& results);
+report::Plot plot_report(const Results& results);
 
 // The files that write_report() puts into a folder.
 std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder);
 
 // Numbers first, then the plot, if it has a panel: files that are planned, each failing alone.
 void write_report(const std::filesystem::path& folder, const Results& results, const std::vector<Figure>& figures,
-                  const std::vector<Comparison>& earlier, PlannedFiles& files);
+                  const std::vector<Comparison>& earlier, cli::PlannedFiles& files);
 
 }  // namespace strata::tools::bench

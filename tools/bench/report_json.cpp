@@ -1,22 +1,18 @@
 #include <fmt/format.h>
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
 #include "noise/simd_target.h"
 #include "src/scene/enum_names.h"
 #include "tools/bench/report.h"
-#include "tools/converge/report.h"
+#include "tools/cli/scene_argument.h"
+#include "tools/report/json.h"
+#include "tools/report/machine.h"
 
 namespace strata::tools::bench {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-// JSON has neither infinity nor NaN.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+using report::Json;
+using report::number;
 
 Json phases_json(const Measurement& m) {
     double total = 0;
@@ -41,7 +37,7 @@ Json case_json(const Measurement& m) {
             {"N", scene.sampling.N},
             {"estimator", scene::name_of(scene.sampling.estimator)},
             {"octaves", scene.surface.octaves},
-            {"tracer", tracer_name(m.what.tracer)},
+            {"tracer", cli::name_of(m.what.tracer)},
             {"threads", m.what.threads},
             {"pixels", m.what.subset.pixels()},
             {"part", m.what.subset.text()},
@@ -138,7 +134,7 @@ std::string json_report(const Results& results, const std::vector<Figure>& figur
     Json json{{"kind", "strata bench"},
               {"format", kFormat},
               {"version", STRATA_VERSION},
-              {"machine", {{"processor", processor_name()}, {"simd_target", noise::simd_target()}}},
+              {"machine", {{"processor", report::processor_name()}, {"simd_target", noise::simd_target()}}},
               {"rounds", results.rounds},
               {"quick", settings.quick},
               {"whole", settings.whole},
@@ -149,7 +145,7 @@ std::string json_report(const Results& results, const std::vector<Figure>& figur
               {"peers", peers_json(results)},
               {"memory", memory_json(results)}};
     if (!earlier.empty()) json["against"] = against_json(earlier);
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return report::text_of(json);
 }
 
 std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder) {
@@ -157,13 +153,13 @@ std::vector<std::filesystem::path> report_files(const std::filesystem::path& fol
 }
 
 void write_report(const std::filesystem::path& folder, const Results& results, const std::vector<Figure>& figures,
-                  const std::vector<Comparison>& earlier, PlannedFiles& files) {
+                  const std::vector<Comparison>& earlier, cli::PlannedFiles& files) {
     files.write(folder / "bench.json", json_report(results, figures, earlier));
     files.write(folder / "bench.txt", text_report(results, figures, earlier));
-    const Plot plot = plot_report(results);
+    const report::Plot plot = plot_report(results);
     if (plot.panels.empty()) return;
     for (const char* name : {"bench.png", "bench.svg"}) {
-        files.write_made(folder / name, [&] { return draw_plot(plot, name); });
+        files.write_made(folder / name, [&] { return report::draw_plot(plot, name); });
     }
 }
 

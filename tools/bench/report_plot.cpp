@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "tools/bench/report.h"
-#include "tools/converge/report.h"
+#include "tools/report/machine.h"
 
 namespace strata::tools::bench {
 
@@ -23,10 +23,10 @@ const char* title_of(Section section) {
     }
 }
 
-PlotSeries series_of(const Results& results, const Curve& curve, const Measure& quantity) {
-    PlotSeries series;
+report::PlotSeries series_of(const Results& results, const Curve& curve, const Measure& quantity) {
+    report::PlotSeries series;
     series.name = curve.name;
-    series.style = PlotStyle::line_points;
+    series.style = report::PlotStyle::line_points;
     for (const CurvePoint& point : curve.points) {
         const Measurement* measured = find(results.measurements, point.id);
         if (measured == nullptr) continue;
@@ -37,11 +37,11 @@ PlotSeries series_of(const Results& results, const Curve& curve, const Measure& 
 }
 
 // Every x that is measured gets its own tic.
-void set_axis(PlotPanel& panel, const std::string& label) {
+void set_axis(report::PlotPanel& panel, const std::string& label) {
     panel.x.label = label;
     panel.x.log = true;
     std::vector<double> all;
-    for (const PlotSeries& series : panel.series) all.insert(all.end(), series.x.begin(), series.x.end());
+    for (const report::PlotSeries& series : panel.series) all.insert(all.end(), series.x.begin(), series.x.end());
     std::ranges::sort(all);
     all.erase(std::unique(all.begin(), all.end()), all.end());
     for (const double x : all) panel.x.tics.push_back({x, fmt::format("{}", x)});
@@ -49,13 +49,14 @@ void set_axis(PlotPanel& panel, const std::string& label) {
     panel.x.max = all.back() * 1.15;
 }
 
-void add_panel(Plot& plot, const Results& results, Section section, const std::string& what, const Measure& quantity) {
-    PlotPanel panel;
+void add_panel(report::Plot& plot, const Results& results, Section section, const std::string& what,
+               const Measure& quantity) {
+    report::PlotPanel panel;
     std::string axis;
     for (const Curve& curve : results.plan.curves) {
         if (curve.section != section) continue;
         axis = curve.axis;
-        PlotSeries series = series_of(results, curve, quantity);
+        report::PlotSeries series = series_of(results, curve, quantity);
         if (!series.x.empty()) panel.series.push_back(std::move(series));
     }
     if (panel.series.empty()) return;
@@ -63,12 +64,12 @@ void add_panel(Plot& plot, const Results& results, Section section, const std::s
     set_axis(panel, axis);
     panel.y.label = what;
     panel.y.min = 0;
-    panel.legend = PlotLegend::bottom_right;
+    panel.legend = report::PlotLegend::bottom_right;
     plot.panels.push_back(std::move(panel));
 }
 
 // Stacked: each phase's area lies on those after it.
-void add_shares(Plot& plot, const Results& results, const Curve& curve) {
+void add_shares(report::Plot& plot, const Results& results, const Curve& curve) {
     std::vector<std::string> names;
     std::vector<const Measurement*> all;
     std::vector<double> xs;
@@ -81,10 +82,11 @@ void add_shares(Plot& plot, const Results& results, const Curve& curve) {
         all.push_back(measured);
         xs.push_back(point.x);
     }
-    PlotPanel panel;
+    report::PlotPanel panel;
     for (std::size_t first = 0; first < names.size(); ++first) {
-        PlotSeries series{.name = names[first], .x = xs, .y = {}, .y_error = {}, .point_size = {}, .colour = {}};
-        series.style = PlotStyle::filled;
+        report::PlotSeries series{
+            .name = names[first], .x = xs, .y = {}, .y_error = {}, .point_size = {}, .colour = {}};
+        series.style = report::PlotStyle::filled;
         for (const Measurement* measured : all) {
             double total = 0, rest = 0;
             for (const Phase& phase : measured->phases) {
@@ -102,21 +104,21 @@ void add_shares(Plot& plot, const Results& results, const Curve& curve) {
     panel.x.min = xs.front();
     panel.x.max = xs.back();
     panel.y = {.label = "time / %", .min = 0, .max = 100, .grid = false};
-    panel.legend = PlotLegend::bottom_right;
+    panel.legend = report::PlotLegend::bottom_right;
     plot.panels.push_back(std::move(panel));
 }
 
 }  // namespace
 
-Plot plot_report(const Results& results) {
-    Plot plot;
+report::Plot plot_report(const Results& results) {
+    report::Plot plot;
     for (const Section section : {Section::octaves, Section::samples, Section::resolution}) {
         add_panel(plot, results, section, "ns a ray", [](const Measurement& m) { return m.ns_a_ray(Pick::least); });
         add_panel(plot, results, section, "evaluations a ray",
                   [](const Measurement& m) { return m.evaluations_a_ray(); });
     }
     for (const Curve& curve : results.plan.curves) add_shares(plot, results, curve);
-    plot.title = fmt::format("strata bench, hyperterrain, one thread of {}", processor_name());
+    plot.title = fmt::format("strata bench, hyperterrain, one thread of {}", report::processor_name());
     plot.columns = plot.panels.size() > 1 ? 2 : 1;
     const int rows = (static_cast<int>(plot.panels.size()) + plot.columns - 1) / std::max(plot.columns, 1);
     plot.width = 560 * plot.columns;

@@ -4,7 +4,7 @@
 
 #include "noise/simd_target.h"
 #include "tools/bench/report.h"
-#include "tools/converge/report.h"
+#include "tools/report/machine.h"
 
 namespace strata::tools::bench {
 
@@ -127,8 +127,8 @@ std::string comparison_table(const std::vector<Comparison>& earlier) {
 std::string text_report(const Results& results, const std::vector<Figure>& figures,
                         const std::vector<Comparison>& earlier) {
     std::string text =
-        fmt::format("{}, {}; CPU time, least and median of {} round{}; one thread unless said\n\n", processor_name(),
-                    noise::simd_target(), results.rounds, results.rounds == 1 ? "" : "s");
+        fmt::format("{}, {}; CPU time, least and median of {} round{}; one thread unless said\n\n",
+                    report::processor_name(), noise::simd_target(), results.rounds, results.rounds == 1 ? "" : "s");
     text += cases_table(results) + subset_table(results) + peers_table(results) + memory_table(results);
     return text + figures_table(results, figures) + comparison_table(earlier);
 }

@@ -19,7 +19,7 @@ double weight_of(const Case& what) {
 }
 
 // One more round of every case, piece by piece in turn. False if cancelled.
-bool measure_round(std::vector<Measurement>& measurements, BatchProgress& progress,
+bool measure_round(std::vector<Measurement>& measurements, job::BatchProgress& progress,
                    const parallel::CancelToken& cancel) {
     std::vector<CaseRound> rounds;
     std::size_t pieces = 0;
@@ -48,7 +48,7 @@ Results run(const Plan& plan, int rounds, const parallel::ProgressCallback& on_p
     }
     std::unique_ptr<Peers> peers;
     if (plan.has(Section::peers)) peers = std::make_unique<Peers>(plan);
-    BatchProgress batch(total, on_progress);
+    job::BatchProgress batch(total, on_progress);
     std::vector<Measurement> whole_rounds = results.measurements;
     for (int round = 0; round < rounds && !cancel.requested(); ++round) {
         bool finished = measure_round(results.measurements, batch, cancel);

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 namespace {
 
@@ -84,4 +84,4 @@ void Command::parse(std::vector<std::string> words) {
     app_->parse(words);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

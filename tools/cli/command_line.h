@@ -15,7 +15,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 class Option {
   public:
@@ -81,4 +81,4 @@ class Command {
     std::deque<Option> options_;  // where they are pointed to
 };
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

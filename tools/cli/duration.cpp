@@ -8,7 +8,7 @@
 #include "src/scene/typed_number.h"
 #include "tools/cli/errors.h"
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 namespace {
 
@@ -35,4 +35,4 @@ double parse_duration(const char* option, const std::string& text) {
     return seconds;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

@@ -13,7 +13,7 @@
 #include "tools/cli/process.h"
 #include "tools/cli/standard_output.h"
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 namespace {
 
@@ -63,4 +63,4 @@ std::string message_of(const std::exception& error) {
     return error.what();
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

@@ -4,7 +4,7 @@
 #include <exception>
 #include <string>
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 // Call first. Signals that end the program end the programs that it runs too and remove its hidden files.
 void prepare_endings();
@@ -12,4 +12,4 @@ void prepare_endings();
 // what() of an error, for the user; of a thread that could not be started, what that means.
 std::string message_of(const std::exception& error);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 inline constexpr int kExitRuntime = 1;   // something failed on the way
 inline constexpr int kExitUsage = 2;     // the command line or the scene is wrong: nothing was started
@@ -15,4 +15,4 @@ class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

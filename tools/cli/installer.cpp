@@ -12,7 +12,7 @@
 
 extern char** environ;
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 namespace {
 
@@ -59,4 +59,4 @@ void restart_rebuilt() {
     ::execv(launcher, pointers.data());
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 // Installs a section of tools/setup/packages.txt, its words on standard error. False if nothing could be installed: the
 // program was started without the launcher, which names its installer in STRATA_INSTALLER, or that failed.
@@ -13,4 +13,4 @@ bool install_packages(const std::string& section);
 // packages that came meanwhile. Returns, if it was not started by one, or is itself the second start.
 void restart_rebuilt();
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

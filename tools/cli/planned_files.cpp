@@ -8,7 +8,7 @@
 #include "src/image/stream_target.h"
 #include "tools/cli/errors.h"
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 namespace fs = std::filesystem;
 
@@ -51,4 +51,4 @@ void refuse_shared(const std::vector<NamedOutput>& outputs) {
     }
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

@@ -14,7 +14,7 @@
 #include "tools/cli/endings.h"
 #include "tools/cli/standard_output.h"
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 // Runs write(); a failure is told and keeps no other file from being written.
 template <class Write>
@@ -65,4 +65,4 @@ struct NamedOutput {
 // Throws UsageError, naming both, where two outputs are one file or both standard output.
 void refuse_shared(const std::vector<NamedOutput>& outputs);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

@@ -20,7 +20,7 @@
 
 extern char** environ;
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 namespace {
 
@@ -209,4 +209,4 @@ ProgramRun run_program(const fs::path& program, const std::vector<std::string>& 
     fail(program, words.empty() ? how : fmt::format("{}:\n{}", how, words));
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

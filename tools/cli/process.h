@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 // A program that is not there, could not be started or failed. what() is for the user, the program's own words
 // included.
@@ -36,4 +36,4 @@ ProgramRun run_program(const std::filesystem::path& program, const std::vector<s
 // Sends a signal to the programs that are running. Async-signal-safe.
 void end_programs(int signal) noexcept;
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 namespace {
 
@@ -52,4 +52,4 @@ void ProgressPrinter::show(const parallel::Progress& progress) {
     line_.show(progress_line(progress));
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

@@ -7,7 +7,7 @@
 #include "src/parallel/progress.h"
 #include "tools/cli/status_line.h"
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 // "42 %, 3.1 M rays/s, 1 min 05 s left".
 std::string progress_line(const parallel::Progress& progress);
@@ -40,4 +40,4 @@ inline constexpr double kPredictionBasis_s = 2;
 // Whether a render is predicted to be long.
 bool predicted_long(const parallel::Progress& progress);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

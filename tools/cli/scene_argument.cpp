@@ -25,7 +25,7 @@
 #include "tools/cli/standard_output.h"
 #include "tools/cli/stream_input.h"
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 namespace {
 
@@ -270,10 +270,12 @@ integrate::Tracer parse_tracer(const std::string& name) {
     throw UsageError(fmt::format("--tracer {}: allowed: fast, reference", scene::excerpt(name)));
 }
 
+const char* name_of(integrate::Tracer tracer) { return tracer == integrate::Tracer::fast ? "fast" : "reference"; }
+
 void use_simd_target(const std::string& name) {
     if (noise::pin_simd_target(name)) return;
     throw UsageError(fmt::format("--simd {}: allowed on this machine: {}", scene::excerpt(name),
                                  fmt::join(noise::simd_targets(), ", ")));
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

@@ -13,7 +13,7 @@
 #include "src/scene/scene.h"
 #include "tools/cli/command_line.h"
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 // A scene and what a picture's metadata adds to it.
 struct LoadedScene {
@@ -67,7 +67,9 @@ glm::ivec2 parse_pixel(const std::string& text, const scene::Film& film);
 // "fast" or "reference". Throws UsageError.
 integrate::Tracer parse_tracer(const std::string& name);
 
+const char* name_of(integrate::Tracer tracer);
+
 // Pins the SIMD target. Throws UsageError for one that is not here.
 void use_simd_target(const std::string& name);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

@@ -13,7 +13,7 @@
 #include "src/image/stream_target.h"
 #include "tools/cli/errors.h"
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 namespace {
 
@@ -77,4 +77,4 @@ int finish_output(int exit_code) {
     return exit_code != 0 ? exit_code : kExitRuntime;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 // Call first. A closed standard stream is kept closed, so that no picture is opened in its place and gets its text;
 // a full disk and a lost reader are errors of the write (EFBIG, EPIPE), not signals that end the program.
@@ -27,4 +27,4 @@ void print_error(std::string_view message);
 // Flushes. exit_code, or that of a failure, with a message, if output was lost; a reader who has gone wanted no more.
 int finish_output(int exit_code);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 namespace {
 
@@ -50,4 +50,4 @@ std::string_view cut_to_columns(std::string_view text, std::size_t columns) {
     return text;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

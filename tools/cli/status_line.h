@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 class StatusLine {
   public:
@@ -27,4 +27,4 @@ class StatusLine {
 // The first `columns` characters of UTF-8 text.
 std::string_view cut_to_columns(std::string_view text, std::size_t columns);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

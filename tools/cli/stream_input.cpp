@@ -14,7 +14,7 @@
 #include "src/scene/scene_text.h"
 #include "tools/cli/errors.h"
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 namespace {
 
@@ -75,4 +75,4 @@ std::optional<fs::path> spool_stream(const std::string& typed) {
 
 bool standard_input_is_read() { return is_standard_input_read; }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

@@ -10,7 +10,7 @@
 #include "src/image/file_paths.h"
 #include "src/image/scratch_files.h"
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 namespace fs = std::filesystem;
 
@@ -38,4 +38,4 @@ fs::path TemporaryFolder::file(const std::string& name) {
     return files_.back();
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

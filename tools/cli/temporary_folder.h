@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 // A folder of its own below TMPDIR, or /tmp, removed with all that is in it; by a signal that ends the program at once,
 // with the files that file() named.
@@ -26,4 +26,4 @@ class TemporaryFolder {
     std::deque<std::filesystem::path> files_;  // their addresses are remembered
 };
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

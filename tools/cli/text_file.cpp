@@ -5,7 +5,7 @@
 #include <sstream>
 #include <system_error>
 
-namespace strata::tools {
+namespace strata::tools::cli {
 
 std::optional<std::string> read_text_file(const std::filesystem::path& path, std::string& why) {
     errno = 0;
@@ -19,4 +19,4 @@ std::optional<std::string> read_text_file(const std::filesystem::path& path, std
     return std::nullopt;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::cli

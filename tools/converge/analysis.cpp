@@ -1,9 +1,10 @@
 #include "tools/converge/analysis.h"
+#include "tools/report/statistics.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 namespace {
 
@@ -21,7 +22,7 @@ Columns columns_of(const ConvergeSeries& series, int least_N) {
         if (point->limit != Limit::none || point->N < least_N) continue;
         const RootMean rmse = point->rmse();
         columns.samples.push_back(1.0 * point->N * point->N);
-        columns.seconds.push_back(spread_of(point->cpu_seconds).median);
+        columns.seconds.push_back(report::spread_of(point->cpu_seconds).median);
         columns.rmse.push_back(rmse.value);
         columns.relative_ci.push_back(rmse.half_width / rmse.value);
     }
@@ -136,4 +137,4 @@ Analysis analyse(const Experiment& experiment) {
     return analysis;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

@@ -9,7 +9,7 @@
 #include "tools/converge/experiment.h"
 #include "tools/converge/power_law.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 inline constexpr std::array<double, 3> kTargets{1.0 / 64, 1.0 / 256, 1.0 / 1024};
 
@@ -47,4 +47,4 @@ std::optional<double> visible_bias(const Experiment& experiment, const ConvergeP
 // Points into the experiment, which must outlive it.
 Analysis analyse(const Experiment& experiment);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

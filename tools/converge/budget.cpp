@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 std::optional<BudgetPlan> plan_budget(std::vector<int> Ns, int wanted_seeds, double available_s,
                                       const std::function<double(int)>& cost_s,
@@ -20,4 +20,4 @@ std::optional<BudgetPlan> plan_budget(std::vector<int> Ns, int wanted_seeds, dou
     return std::nullopt;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

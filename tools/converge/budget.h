@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 struct BudgetPlan {
     std::vector<int> Ns;
@@ -22,4 +22,4 @@ std::optional<BudgetPlan> plan_budget(std::vector<int> Ns, int wanted_seeds, dou
 
 inline constexpr int kLeastSeeds = 4;  // for a confidence interval worth its name
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

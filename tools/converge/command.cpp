@@ -11,7 +11,7 @@
 #include "src/scene/enum_names.h"
 #include "src/scene/key_text.h"
 #include "src/scene/suggest.h"
-#include "tools/cli/commands.h"
+#include "tools/cli/command_line.h"
 #include "tools/cli/duration.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/planned_files.h"
@@ -20,7 +20,7 @@
 #include "tools/cli/standard_output.h"
 #include "tools/converge/report.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 namespace {
 
@@ -30,7 +30,7 @@ using scene::EstimatorKind;
 constexpr int kDefaultSide = 64;  // px, of the longer side of a frame
 
 struct ConvergeRequest {
-    SceneArgument scene;
+    cli::SceneArgument scene;
     std::string estimators = "super,uniform,jittered,stratified,random,sobol,shared,shared-sobol";
     std::string orders = "1,4", Ns = "1,2,4,8,16,32", tracers = "fast";
     std::string seeds, repeats = "3", threads, budget, folder;
@@ -43,8 +43,8 @@ std::vector<std::string> words(const char* option, const std::string& text) {
         const std::size_t end = std::min(text.find(',', start), text.size());
         list.push_back(text.substr(start, end - start));
         if (list.back().empty()) {
-            throw UsageError(fmt::format("{} {}: allowed: a list with commas between, none of them empty", option,
-                                         scene::excerpt(text)));
+            throw cli::UsageError(fmt::format("{} {}: allowed: a list with commas between, none of them empty", option,
+                                              scene::excerpt(text)));
         }
         start = end + 1;
     }
@@ -64,9 +64,9 @@ std::vector<EstimatorKind> parse_estimators(const std::string& text) {
         const auto kind = scene::from_name<EstimatorKind>(word);
         if (!kind) {
             const auto near = scene::nearest(word, known);
-            throw UsageError(fmt::format("--estimators: {}: allowed: {}{}", scene::excerpt(word),
-                                         fmt::join(known, ", "),
-                                         near ? fmt::format("; did you mean '{}'?", *near) : ""));
+            throw cli::UsageError(fmt::format("--estimators: {}: allowed: {}{}", scene::excerpt(word),
+                                              fmt::join(known, ", "),
+                                              near ? fmt::format("; did you mean '{}'?", *near) : ""));
         }
         add_once(kinds, *kind);
     }
@@ -75,7 +75,7 @@ std::vector<EstimatorKind> parse_estimators(const std::string& text) {
 
 std::vector<int> parse_integers(const char* option, const std::string& text, int least, int most) {
     std::vector<int> values;
-    for (const std::string& word : words(option, text)) add_once(values, parse_integer(option, word, least, most));
+    for (const std::string& word : words(option, text)) add_once(values, cli::parse_integer(option, word, least, most));
     std::ranges::sort(values);
     return values;
 }
@@ -84,12 +84,12 @@ std::vector<integrate::Tracer> parse_tracers(const std::string& text, const scen
     std::vector<integrate::Tracer> tracers;
     for (const std::string& word : words("--tracers", text)) {
         if (word != "fast" && word != "reference")
-            throw UsageError(fmt::format("--tracers: {}: allowed: fast, reference", scene::excerpt(word)));
-        add_once(tracers, parse_tracer(word));
+            throw cli::UsageError(fmt::format("--tracers: {}: allowed: fast, reference", scene::excerpt(word)));
+        add_once(tracers, cli::parse_tracer(word));
     }
     if (scene.image != scene::ImageKind::surface && tracers != std::vector{integrate::Tracer::fast}) {
-        throw UsageError(fmt::format("--tracers {}: image '{}' has no surface to trace; allowed: fast",
-                                     scene::excerpt(text), scene::name_of(scene.image)));
+        throw cli::UsageError(fmt::format("--tracers {}: image '{}' has no surface to trace; allowed: fast",
+                                          scene::excerpt(text), scene::name_of(scene.image)));
     }
     return tracers;
 }
@@ -110,14 +110,14 @@ ConvergeSettings parse_settings(const ConvergeRequest& request, const scene::Sce
     settings.orders = parse_integers("--m", request.orders, 1, 100);
     settings.Ns = parse_integers("--N", request.Ns, 1, 64);
     settings.tracers = parse_tracers(request.tracers, scene);
-    if (!request.seeds.empty()) settings.seeds = parse_integer("--seeds", request.seeds, 1, kMostSeeds);
-    settings.repeats = parse_integer("--repeats", request.repeats, 1, kMostSeeds);
-    if (!request.threads.empty()) settings.threads = parse_integer("--threads", request.threads, 1, 1024);
-    if (!request.budget.empty()) settings.budget_s = parse_duration("--budget", request.budget);
+    if (!request.seeds.empty()) settings.seeds = cli::parse_integer("--seeds", request.seeds, 1, kMostSeeds);
+    settings.repeats = cli::parse_integer("--repeats", request.repeats, 1, kMostSeeds);
+    if (!request.threads.empty()) settings.threads = cli::parse_integer("--threads", request.threads, 1, 1024);
+    if (!request.budget.empty()) settings.budget_s = cli::parse_duration("--budget", request.budget);
     return settings;
 }
 
-fs::path prepare_folder(const std::string& folder, const std::string& name, PlannedFiles& files) {
+fs::path prepare_folder(const std::string& folder, const std::string& name, cli::PlannedFiles& files) {
     fs::path path = folder.empty() ? fs::path(name + "-converge") : fs::path(folder);
     std::error_code error;
     fs::create_directories(path, error);
@@ -126,41 +126,43 @@ fs::path prepare_folder(const std::string& folder, const std::string& name, Plan
                                             error ? error.message() : "a file is in its place"));
     }
     for (const fs::path& file : report_files(path)) files.plan(file);
-    check_plotter();
+    report::check_plotter();
     return path;
 }
 
 int converge_command(const ConvergeRequest& request) {
     static parallel::CancelToken cancel;
     parallel::cancel_on_signals(cancel);
-    LoadedScene loaded = request.scene.load();
+    cli::LoadedScene loaded = request.scene.load();
     choose_size(request, loaded.scene.film);
     const ConvergeSettings settings = parse_settings(request, loaded.scene);
-    PlannedFiles files;
+    cli::PlannedFiles files;
     const fs::path folder = prepare_folder(request.folder, loaded.name, files);
-    ProgressPrinter progress(request.quiet);
+    cli::ProgressPrinter progress(request.quiet);
     const Experiment experiment = run_experiment(loaded.scene, settings, progress, cancel);
     progress.clear();
     if (experiment.points.empty()) {
-        if (!request.quiet) print_error("stopped before the first point was measured");
+        if (!request.quiet) cli::print_error("stopped before the first point was measured");
     } else {
         const Analysis analysis = analyse(experiment);
         const ConvergeReport report{loaded.name, experiment, analysis};
         write_report(report, folder, files);
         if (!request.quiet) {
-            print_out(converge_summary(report));
+            cli::print_out(converge_summary(report));
             if (files.all_written())
-                print_out(fmt::format("\nwrote    {} in {}\n", folder.string(), duration_text(experiment.seconds)));
+                cli::print_out(
+                    fmt::format("\nwrote    {} in {}\n", folder.string(), cli::duration_text(experiment.seconds)));
         }
     }
-    if (!files.all_written()) return kExitRuntime;
-    return parallel::cancelling_signal() != 0 ? kExitSignal + parallel::cancelling_signal() : 0;
+    if (!files.all_written()) return cli::kExitRuntime;
+    return parallel::cancelling_signal() != 0 ? cli::kExitSignal + parallel::cancelling_signal() : 0;
 }
 
 }  // namespace
 
-void add_converge_command(Command& program, int& exit_code) {
-    Command* command = program.add_subcommand("converge", "Measure error against time of estimators, and report it");
+void add_command(cli::Command& program, int& exit_code) {
+    cli::Command* command =
+        program.add_subcommand("converge", "Measure error against time of estimators, and report it");
     auto request = std::make_shared<ConvergeRequest>();
     request->scene.add_scene_to(*command,
                                 "What to picture: edge, zoneplate, checker, constant or ramp (compared with the exact "
@@ -211,4 +213,4 @@ void add_converge_command(Command& program, int& exit_code) {
     command->callback([request, &exit_code] { exit_code = converge_command(*request); });
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

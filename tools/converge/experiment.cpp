@@ -16,7 +16,7 @@
 #include "tools/converge/budget.h"
 #include "tools/converge/reference.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 namespace {
 
@@ -31,7 +31,7 @@ constexpr double kReport_s = 4;         // for the report and its plots
 
 class Run {
   public:
-    Run(const scene::Scene& scene, const ConvergeSettings& settings, ProgressPrinter& progress,
+    Run(const scene::Scene& scene, const ConvergeSettings& settings, cli::ProgressPrinter& progress,
         const parallel::CancelToken& cancel)
         : progress_(progress.callback()), cancel_(cancel) {
         all_.settings = settings;
@@ -170,10 +170,10 @@ void Run::fit_budget() {
         [this](int N) { return reference_cost_s(N); });
     if (!plan) {
         const int least = settings.Ns.front();
-        throw UsageError(fmt::format(
+        throw cli::UsageError(fmt::format(
             "--budget: too short: N = {} alone, with two seeds, takes about {}; allowed: more "
             "time, a smaller --size, fewer estimators or orders",
-            least, duration_text((reference_cost_s(least) + 2 * cost_s(least)) / kPlannedShare + kReport_s)));
+            least, cli::duration_text((reference_cost_s(least) + 2 * cost_s(least)) / kPlannedShare + kReport_s)));
     }
     all_.dropped_Ns.assign(settings.Ns.begin() + static_cast<std::ptrdiff_t>(plan->Ns.size()), settings.Ns.end());
     settings.Ns = plan->Ns;
@@ -297,9 +297,9 @@ Experiment Run::run() {
 
 }  // namespace
 
-Experiment run_experiment(const scene::Scene& scene, const ConvergeSettings& settings, ProgressPrinter& progress,
+Experiment run_experiment(const scene::Scene& scene, const ConvergeSettings& settings, cli::ProgressPrinter& progress,
                           const parallel::CancelToken& cancel) {
     return Run(scene, settings, progress, cancel).run();
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

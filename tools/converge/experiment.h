@@ -12,7 +12,7 @@
 #include "tools/cli/progress_printer.h"
 #include "tools/converge/statistics.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 // What is to be measured.
 struct ConvergeSettings {
@@ -82,7 +82,7 @@ bool deterministic(scene::EstimatorKind kind, const scene::Scene& scene);
 
 // Measures a valid scene's frame. Throws UsageError when the budget does not suffice for anything. Points without any
 // render have been removed.
-Experiment run_experiment(const scene::Scene& scene, const ConvergeSettings& settings, ProgressPrinter& progress,
+Experiment run_experiment(const scene::Scene& scene, const ConvergeSettings& settings, cli::ProgressPrinter& progress,
                           const parallel::CancelToken& cancel);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

@@ -2,7 +2,7 @@
 
 #include "tools/converge/experiment.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 using scene::EstimatorKind;
 
@@ -25,4 +25,4 @@ bool deterministic(EstimatorKind kind, const scene::Scene& scene) {
     return instant && (kind == EstimatorKind::super || kind == EstimatorKind::uniform);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

@@ -6,7 +6,7 @@
 
 #include "src/render/confidence.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 double PowerLaw::at(double x) const { return std::pow(10.0, log10_factor + slope * std::log10(x)); }
 
@@ -62,4 +62,4 @@ std::optional<TimeToError> time_to_error(double error, std::span<const double> s
     return TimeToError{seconds.back() * ratio, Reach::extrapolated};
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 struct PowerLaw {
     double slope = 0;
@@ -35,4 +35,4 @@ struct TimeToError {
 std::optional<TimeToError> time_to_error(double error, std::span<const double> seconds, std::span<const double> errors,
                                          const std::optional<PowerLaw>& law);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

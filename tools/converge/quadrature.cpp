@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 namespace {
 
@@ -41,4 +41,4 @@ GaussLegendre::GaussLegendre(int n) : nodes(static_cast<std::size_t>(n)), weight
     }
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

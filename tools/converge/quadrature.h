@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 // Nodes ascending in (-1,1) and their weights, exact for polynomials up to degree 2n - 1.
 struct GaussLegendre {
@@ -22,4 +22,4 @@ struct GaussLegendre {
     std::vector<double> nodes, weights;
 };
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

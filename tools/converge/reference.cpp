@@ -10,7 +10,7 @@
 #include "src/sample/counter_hash.h"
 #include "tools/converge/truth.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::optional<ConvergeReference> make_reference(const scene::Scene& scene, int m
     return reference;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

@@ -3,7 +3,7 @@
 
 #include "tools/converge/experiment.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 // Renders of each half of an engine's reference.
 inline constexpr int kPassesOfAHalf = 2;
@@ -17,4 +17,4 @@ std::optional<ConvergeReference> make_reference(const scene::Scene& scene, int m
 // Whether make_reference() will not render.
 bool has_exact_reference(const scene::Scene& scene, int m);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

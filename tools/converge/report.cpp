@@ -1,24 +1,10 @@
 #include "tools/converge/report.h"
 
-#include <fstream>
-
-namespace strata::tools {
-
-const char* tracer_name(integrate::Tracer tracer) { return tracer == integrate::Tracer::fast ? "fast" : "reference"; }
+namespace strata::tools::converge {
 
 const char* limit_name(Limit limit) {
     if (limit == Limit::none) return "";
     return limit == Limit::reference ? "reference" : "rounding";
-}
-
-std::string processor_name() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);) {
-        if (!line.starts_with("model name")) continue;
-        const std::size_t start = line.find_first_not_of(" \t", line.find(':') + 1);
-        if (start != std::string::npos) return line.substr(start);
-    }
-    return "an unnamed processor";
 }
 
 std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder) {
@@ -30,21 +16,21 @@ std::vector<std::filesystem::path> report_files(const std::filesystem::path& fol
     return files;
 }
 
-void write_report(const ConvergeReport& report, const std::filesystem::path& folder, PlannedFiles& files) {
+void write_report(const ConvergeReport& report, const std::filesystem::path& folder, cli::PlannedFiles& files) {
     // Numbers first: a plot that fails costs none.
     files.write(folder / "converge.csv", converge_csv(report));
     files.write(folder / "converge.json", converge_json(report));
     files.write(folder / "summary.md", converge_summary(report));
-    const auto write = [&](const Plot& plot, const std::string& name) {
+    const auto write = [&](const report::Plot& plot, const std::string& name) {
         // Without any error there is nothing to draw.
         if (plot.panels.empty()) return;
         for (const char* extension : {".png", ".svg"}) {
             const std::filesystem::path path = folder / (name + extension);
-            files.write_made(path, [&] { return draw_plot(plot, path); });
+            files.write_made(path, [&] { return report::draw_plot(plot, path); });
         }
     };
     write(converge_plot(report, PlotAgainst::samples), "error-samples");
     write(converge_plot(report, PlotAgainst::seconds), "error-time");
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

@@ -7,9 +7,9 @@
 
 #include "tools/cli/planned_files.h"
 #include "tools/converge/analysis.h"
-#include "tools/plot/plot.h"
+#include "tools/report/plot.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 struct ConvergeReport {
     std::string function;  // the scene's name
@@ -29,21 +29,15 @@ std::string converge_summary(const ConvergeReport& report);
 // Error against samples or time, a panel for each order and tracer: points, fitted lines, and dotted lines of the
 // slopes that theory knows.
 enum class PlotAgainst { samples, seconds };
-Plot converge_plot(const ConvergeReport& report, PlotAgainst against);
+report::Plot converge_plot(const ConvergeReport& report, PlotAgainst against);
 
 // The files that write_report() will put into a folder.
 std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder);
 
 // Those, which are planned; each fails alone.
-void write_report(const ConvergeReport& report, const std::filesystem::path& folder, PlannedFiles& files);
-
-// "fast" or "reference".
-const char* tracer_name(integrate::Tracer tracer);
+void write_report(const ConvergeReport& report, const std::filesystem::path& folder, cli::PlannedFiles& files);
 
 // "", "reference" or "rounding".
 const char* limit_name(Limit limit);
 
-// The processor's name as the system tells it.
-std::string processor_name();
-
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

@@ -2,18 +2,23 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "noise/simd_target.h"
 #include "src/scene/enum_names.h"
 #include "src/scene/printer.h"
+#include "tools/cli/scene_argument.h"
 #include "tools/converge/report.h"
+#include "tools/report/csv.h"
+#include "tools/report/json.h"
+#include "tools/report/machine.h"
+#include "tools/report/statistics.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using report::Json;
+using report::number;
 
 double mean(const std::vector<double>& values) {
     double sum = 0;
@@ -21,19 +26,16 @@ double mean(const std::vector<double>& values) {
     return sum / static_cast<double>(values.size());
 }
 
-// JSON has neither infinity nor NaN.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json row_of(const ConvergeReport& report, const ConvergePoint& point) {
     const RootMean rmse = point.rmse();
     const std::optional<double> bias = visible_bias(report.experiment, point);
-    const Spread seconds = spread_of(point.seconds);
-    const Spread cpu = spread_of(point.cpu_seconds);
+    const report::Spread seconds = report::spread_of(point.seconds);
+    const report::Spread cpu = report::spread_of(point.cpu_seconds);
     return {{"function", report.function},
             {"estimator", scene::name_of(point.estimator)},
             {"m", point.m},
             {"N", point.N},
-            {"tracer", tracer_name(point.tracer)},
+            {"tracer", cli::name_of(point.tracer)},
             {"seed_count", point.seeds()},
             {"rays", point.counters.rays},
             {"shadow_rays", point.counters.shadow_rays},
@@ -52,19 +54,14 @@ Json row_of(const ConvergeReport& report, const ConvergePoint& point) {
             {"percentile99", number(mean(point.percentile99))},
             {"neighbour_correlation", number(point.errors.neighbour_correlation())},
             {"bias_mean", number(point.errors.mean())},
-            {"bias_rms", bias ? number(*bias) : Json(nullptr)},
+            {"bias_rms", number(bias)},
             {"limited_by", limit_name(point.limit)}};
 }
 
 std::string csv_text(const Json& value) {
     if (value.is_null()) return "";
     if (!value.is_string()) return value.dump();
-    const auto& text = value.get_ref<const std::string&>();
-    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-    std::string quoted(1, '"');
-    for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-    quoted.push_back('"');
-    return quoted;
+    return report::csv_cell(value.get_ref<const std::string&>());
 }
 
 Json slopes_json(const Analysis& analysis) {
@@ -74,7 +71,7 @@ Json slopes_json(const Analysis& analysis) {
             if (!law) return;
             slopes.push_back({{"estimator", scene::name_of(series.estimator)},
                               {"m", series.m},
-                              {"tracer", tracer_name(series.tracer)},
+                              {"tracer", cli::name_of(series.tracer)},
                               {"against", against},
                               {"slope", law->slope},
                               {"slope_ci", law->slope_ci},
@@ -98,9 +95,9 @@ Json times_json(const Analysis& analysis) {
         for (std::size_t i = 0; i < kTargets.size(); ++i) {
             if (!series.times[i]) continue;
             Json entry{{"estimator", scene::name_of(series.estimator)}, {"m", series.m},
-                       {"tracer", tracer_name(series.tracer)},          {"error", kTargets[i]},
+                       {"tracer", cli::name_of(series.tracer)},         {"error", kTargets[i]},
                        {"seconds", series.times[i]->seconds},           {"how", reach_name(series.times[i]->reach)}};
-            entry["stratified_over_this"] = series.speed_ups[i] ? Json(*series.speed_ups[i]) : Json(nullptr);
+            entry["stratified_over_this"] = number(series.speed_ups[i]);
             times.push_back(std::move(entry));
         }
     }
@@ -113,7 +110,7 @@ Json bias_json(const Analysis& analysis) {
         tests.push_back({{"estimator", scene::name_of(test.point->estimator)},
                          {"m", test.point->m},
                          {"N", test.point->N},
-                         {"tracer", tracer_name(test.point->tracer)},
+                         {"tracer", cli::name_of(test.point->tracer)},
                          {"z_of_mean", number(test.z_of_mean)},
                          {"z_of_squares", number(test.z_of_squares)},
                          {"pass", !test.failed}});
@@ -163,7 +160,7 @@ std::string converge_json(const ConvergeReport& report) {
                     {"width", experiment.scene.film.width},
                     {"height", experiment.scene.film.height},
                     {"machine",
-                     {{"processor", processor_name()},
+                     {{"processor", report::processor_name()},
                       {"threads", experiment.settings.threads},
                       {"simd_target", noise::simd_target()}}},
                     {"first_seed", experiment.first_seed},
@@ -176,7 +173,7 @@ std::string converge_json(const ConvergeReport& report) {
                     {"time_to_error", times_json(report.analysis)},
                     {"bias", bias_json(report.analysis)},
                     {"scene", scene::print_scene(experiment.scene)}};
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return report::text_of(json);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

@@ -5,9 +5,11 @@
 #include <limits>
 
 #include "src/scene/enum_names.h"
+#include "tools/cli/scene_argument.h"
 #include "tools/converge/report.h"
+#include "tools/report/statistics.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 namespace {
 
@@ -26,31 +28,31 @@ constexpr int kBlack = 5;  // of plot_palette()
 // One colour and shape an estimator, in every panel; the paper's is black.
 struct Look {
     int colour;
-    PlotShape shape;
+    report::PlotShape shape;
 };
 
 Look look_of(scene::EstimatorKind kind) {
     switch (kind) {
         case scene::EstimatorKind::none:
-            return {7, PlotShape::dot};
+            return {7, report::PlotShape::dot};
         case scene::EstimatorKind::super:
-            return {7, PlotShape::triangle};
+            return {7, report::PlotShape::triangle};
         case scene::EstimatorKind::uniform:
-            return {2, PlotShape::square};
+            return {2, report::PlotShape::square};
         case scene::EstimatorKind::jittered:
-            return {3, PlotShape::triangle};
+            return {3, report::PlotShape::triangle};
         case scene::EstimatorKind::stratified:
-            return {kBlack, PlotShape::diamond};
+            return {kBlack, report::PlotShape::diamond};
         case scene::EstimatorKind::random:
-            return {4, PlotShape::cross};
+            return {4, report::PlotShape::cross};
         case scene::EstimatorKind::sobol:
-            return {6, PlotShape::circle};
+            return {6, report::PlotShape::circle};
         case scene::EstimatorKind::shared:
-            return {1, PlotShape::dot};
+            return {1, report::PlotShape::dot};
         case scene::EstimatorKind::shared_sobol:
-            return {0, PlotShape::square};
+            return {0, report::PlotShape::square};
     }
-    return {kBlack, PlotShape::dot};
+    return {kBlack, report::PlotShape::dot};
 }
 
 std::string with_slope(const ConvergeSeries& series, const std::optional<PowerLaw>& law) {
@@ -67,7 +69,7 @@ class Panel {
         if (panel_.series.empty()) return;
         add_theory();
         const bool traced = report.experiment.settings.tracers.size() > 1;
-        panel_.title = fmt::format("m = {}{}", m, traced ? fmt::format(", {} tracer", tracer_name(tracer)) : "");
+        panel_.title = fmt::format("m = {}{}", m, traced ? fmt::format(", {} tracer", cli::name_of(tracer)) : "");
         panel_.x.label = against == PlotAgainst::samples ? "samples a pixel, N²" : "CPU time of a render / s";
         panel_.y.label = "RMSE of linear radiance";
         panel_.x.log = panel_.y.log = true;
@@ -75,25 +77,25 @@ class Panel {
         panel_.y.max = y_.high * 1.5;
         panel_.x.min = x_.low / 1.3;
         panel_.x.max = x_.high * 1.3;
-        panel_.legend = PlotLegend::right;
+        panel_.legend = report::PlotLegend::right;
     }
 
-    const PlotPanel& panel() const { return panel_; }
+    const report::PlotPanel& panel() const { return panel_; }
 
   private:
     double x_of(const ConvergePoint& point) const {
-        return against_ == PlotAgainst::samples ? 1.0 * point.N * point.N : spread_of(point.cpu_seconds).median;
+        return against_ == PlotAgainst::samples ? 1.0 * point.N * point.N : report::spread_of(point.cpu_seconds).median;
     }
 
     void add(const ConvergeSeries& series) {
         const std::optional<PowerLaw>& law =
             against_ == PlotAgainst::samples ? series.against_samples : series.against_seconds;
-        PlotSeries points;
+        report::PlotSeries points;
         points.name = with_slope(series, law);
-        points.style = law ? PlotStyle::points : PlotStyle::line_points;
+        points.style = law ? report::PlotStyle::points : report::PlotStyle::line_points;
         points.colour = look_of(series.estimator).colour;
         points.shape = look_of(series.estimator).shape;
-        PlotSeries line;
+        report::PlotSeries line;
         line.colour = points.colour;
         line.line_width = 1.5;
         // The fit may have left out the first points.
@@ -130,11 +132,11 @@ class Panel {
                                      Theory{-1.0, "-1: strata, smooth"}}) {
             const double bottom = x_.low * std::pow(y_.low / y_.high, 1 / theory.slope);
             const double end = std::min(x_.high, bottom);
-            PlotSeries line;
+            report::PlotSeries line;
             line.name = theory.name;
-            line.style = theory.slope == -0.5   ? PlotStyle::dotted
-                         : theory.slope == -1.0 ? PlotStyle::line
-                                                : PlotStyle::dashed;
+            line.style = theory.slope == -0.5   ? report::PlotStyle::dotted
+                         : theory.slope == -1.0 ? report::PlotStyle::line
+                                                : report::PlotStyle::dashed;
             line.colour = kBlack;
             line.line_width = 0.7;
             line.x = {x_.low, end};
@@ -144,15 +146,15 @@ class Panel {
     }
 
     PlotAgainst against_;
-    PlotPanel panel_;
+    report::PlotPanel panel_;
     Extent x_, y_;
 };
 
 }  // namespace
 
-Plot converge_plot(const ConvergeReport& report, PlotAgainst against) {
+report::Plot converge_plot(const ConvergeReport& report, PlotAgainst against) {
     const Experiment& experiment = report.experiment;
-    Plot plot;
+    report::Plot plot;
     plot.title = fmt::format("{}: error against {}, with fitted slopes", report.function,
                              against == PlotAgainst::samples ? "samples" : "time");
     for (const integrate::Tracer tracer : experiment.settings.tracers) {
@@ -172,4 +174,4 @@ Plot converge_plot(const ConvergeReport& report, PlotAgainst against) {
     return plot;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

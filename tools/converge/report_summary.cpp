@@ -7,9 +7,11 @@
 #include "noise/simd_target.h"
 #include "src/scene/enum_names.h"
 #include "tools/cli/progress_printer.h"
+#include "tools/cli/scene_argument.h"
 #include "tools/converge/report.h"
+#include "tools/report/machine.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 namespace {
 
@@ -18,7 +20,7 @@ using scene::EstimatorKind;
 std::string time_text(double seconds) {
     if (seconds < 1e-3) return fmt::format("{:.3g} µs", 1e6 * seconds);
     if (seconds < 1) return fmt::format("{:.3g} ms", 1e3 * seconds);
-    return seconds < 100 ? fmt::format("{:.3g} s", seconds) : duration_text(seconds);
+    return seconds < 100 ? fmt::format("{:.3g} s", seconds) : cli::duration_text(seconds);
 }
 
 std::string target_text(double target) { return fmt::format("1/{:.0f}", 1 / target); }
@@ -38,7 +40,7 @@ std::string time_cell(const ConvergeSeries& series, std::size_t target) {
 
 std::string series_name(const Experiment& experiment, const ConvergeSeries& series) {
     std::string name(scene::name_of(series.estimator));
-    if (experiment.settings.tracers.size() > 1) name += fmt::format(", {} tracer", tracer_name(series.tracer));
+    if (experiment.settings.tracers.size() > 1) name += fmt::format(", {} tracer", cli::name_of(series.tracer));
     return name;
 }
 
@@ -58,7 +60,7 @@ std::string setting_text(const ConvergeReport& report) {
         "clock are in "
         "the files.\n",
         report.function, e.scene.film.width, e.scene.film.height, e.settings.seeds, e.first_seed, e.settings.repeats,
-        e.settings.threads, e.settings.threads == 1 ? "" : "s", processor_name(), noise::simd_target());
+        e.settings.threads, e.settings.threads == 1 ? "" : "s", report::processor_name(), noise::simd_target());
     if (!e.dropped_Ns.empty()) {
         text += fmt::format("The time given did not suffice for N = {}{}.\n", e.dropped_Ns.front(),
                             e.dropped_Ns.size() > 1 ? fmt::format(" to {}", e.dropped_Ns.back()) : "");
@@ -237,4 +239,4 @@ std::string converge_summary(const ConvergeReport& report) {
            limits_text(report);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

@@ -8,24 +8,7 @@
 
 #include "src/render/confidence.h"
 
-namespace strata::tools {
-
-namespace {
-
-double quantile_of_sorted(const std::vector<double>& sorted, double p) {
-    const double place = p * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
-}  // namespace
-
-Spread spread_of(std::vector<double> values) {
-    if (values.empty()) return {};
-    std::sort(values.begin(), values.end());
-    return {quantile_of_sorted(values, 0.5), quantile_of_sorted(values, 0.25), quantile_of_sorted(values, 0.75)};
-}
+namespace strata::tools::converge {
 
 RootMean root_mean(std::span<const double> squares, bool exact) {
     const auto n = static_cast<double>(squares.size());
@@ -109,4 +92,4 @@ double sidak_threshold(double family_level, std::size_t tests, bool two_sided) {
     return -render::normal_quantile(two_sided ? each / 2 : each);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

@@ -1,17 +1,11 @@
-// What is said of errors and times over seeds and repeats.
+// What is said of errors over seeds.
 #pragma once
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
-namespace strata::tools {
-
-// Median and quartiles, by linear interpolation between the sorted values; zeros without values.
-struct Spread {
-    double median = 0, low_quartile = 0, high_quartile = 0;
-};
-Spread spread_of(std::vector<double> values);
+namespace strata::tools::converge {
 
 // sqrt(mean of squares) and half the width of its 95 % confidence interval, by Student's t over the squares (the seeds'
 // mean squared errors). half_width is infinite for one value, unless `exact` says that every seed gives the same.
@@ -63,4 +57,4 @@ class PixelErrors {
 // fails with probability `family_level` in all (Sidak 1967).
 double sidak_threshold(double family_level, std::size_t tests, bool two_sided);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

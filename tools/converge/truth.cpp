@@ -7,7 +7,7 @@
 #include "src/filter/bspline.h"
 #include "tools/converge/quadrature.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 namespace {
 
@@ -101,4 +101,4 @@ std::optional<Truth> exact_picture(const scene::Scene& scene, int m, const film:
     return std::nullopt;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

@@ -10,7 +10,7 @@
 #include "src/film/film.h"
 #include "src/scene/scene.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 struct Truth {
     std::vector<double> grey;  // row by row from the window's top left
@@ -34,4 +34,4 @@ std::optional<Truth> exact_zoneplate(const scene::Zoneplate& zoneplate, const sc
 std::optional<Truth> exact_checker(const scene::Checker& checker, const scene::Film& film, int m,
                                    const film::Rect& window);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

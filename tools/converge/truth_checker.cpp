@@ -14,7 +14,7 @@
 #include "tools/converge/quadrature.h"
 #include "tools/converge/truth.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 namespace {
 
@@ -178,4 +178,4 @@ std::optional<Truth> exact_checker(const scene::Checker& checker, const scene::F
     return truth;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

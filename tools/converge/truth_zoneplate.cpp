@@ -9,7 +9,7 @@
 #include "tools/converge/quadrature.h"
 #include "tools/converge/truth.h"
 
-namespace strata::tools {
+namespace strata::tools::converge {
 
 namespace {
 
@@ -74,4 +74,4 @@ std::optional<Truth> exact_zoneplate(const scene::Zoneplate& zoneplate, const sc
     return truth;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::converge

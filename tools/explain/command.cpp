@@ -5,7 +5,7 @@
 #include "src/image/file_paths.h"
 #include "src/parallel/cancel.h"
 #include "src/render/progressive.h"
-#include "tools/cli/commands.h"
+#include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/planned_files.h"
 #include "tools/cli/scene_argument.h"
@@ -14,68 +14,69 @@
 #include "tools/job/aov.h"
 #include "tools/job/settings_mark.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 namespace {
 
 struct ExplainRequest {
-    SceneArgument scene;
+    cli::SceneArgument scene;
     std::string crop, tracer, simd, json, statistics, passes, aov, threads = "0";
     bool no_pilot = false, quiet = false;
 };
 
 constexpr int kMostThreads = 1024;
 
-void plan_json(const ExplainRequest& request, const LoadedScene& loaded, PlannedFiles& files) {
+void plan_json(const ExplainRequest& request, const cli::LoadedScene& loaded, cli::PlannedFiles& files) {
     if (request.json.empty()) return;
     for (const std::string& input : {loaded.source, request.statistics}) {
         if (!input.empty() && image::is_one_file(input, request.json)) {
-            throw UsageError("--json " + request.json + ": this is what is to be read; allowed: a file of its own");
+            throw cli::UsageError("--json " + request.json +
+                                  ": this is what is to be read; allowed: a file of its own");
         }
     }
     files.plan(request.json);
-    keep_output_for(request.json);
+    cli::keep_output_for(request.json);
 }
 
 int explain_command(const ExplainRequest& request) {
     parallel::end_on_signals();
-    const int threads = parse_integer("--threads", request.threads, 0, kMostThreads);
-    LoadedScene loaded = request.scene.load();
+    const int threads = cli::parse_integer("--threads", request.threads, 0, kMostThreads);
+    cli::LoadedScene loaded = request.scene.load();
     if (!request.simd.empty()) {
-        use_simd_target(request.simd);
+        cli::use_simd_target(request.simd);
     } else if (loaded.simd_target) {
         noise::pin_simd_target(*loaded.simd_target);
     }
     Explanation explanation;
-    explanation.window = window_of(request.crop, loaded);
+    explanation.window = cli::window_of(request.crop, loaded);
     explanation.tracer = !request.tracer.empty() ? request.tracer : loaded.tracer.value_or("fast");
-    const integrate::Tracer tracer = parse_tracer(explanation.tracer);
+    const integrate::Tracer tracer = cli::parse_tracer(explanation.tracer);
     explanation.simd_target = noise::simd_target();
     explanation.name = loaded.name;
     explanation.scene = loaded.scene;
     const std::string passes_text = !request.passes.empty() ? request.passes : loaded.passes.value_or("1");
-    int passes = parse_integer("--passes", passes_text, 1, render::kMostPasses);
-    PlannedFiles files;
+    int passes = cli::parse_integer("--passes", passes_text, 1, render::kMostPasses);
+    cli::PlannedFiles files;
     plan_json(request, loaded, files);
     if (!request.statistics.empty()) {
-        const std::string mark = settings_mark(loaded.scene, explanation.window, explanation.tracer);
+        const std::string mark = job::settings_mark(loaded.scene, explanation.window, explanation.tracer);
         explanation.recorded = read_recorded(request.statistics, mark, count_rays(loaded.scene, explanation.window));
         if (request.passes.empty()) passes = static_cast<int>(explanation.recorded->passes);
     }
-    const std::vector<Aov> aovs = aovs_of(request.aov, loaded, passes);
+    const std::vector<job::Aov> aovs = job::aovs_of(request.aov, loaded, passes);
     explanation.plan = make_plan(loaded.scene, tracer, passes, aovs);
     explanation.prediction = predict(
         loaded.scene, explanation.window,
         {.tracer = tracer, .threads = threads, .passes = passes, .aovs = aovs, .with_pilot = !request.no_pilot});
     if (!request.json.empty()) files.write(request.json, explanation_json(explanation));
-    if (!request.quiet) print_out(explanation_text(explanation));
-    return files.all_written() ? 0 : kExitRuntime;
+    if (!request.quiet) cli::print_out(explanation_text(explanation));
+    return files.all_written() ? 0 : cli::kExitRuntime;
 }
 
 }  // namespace
 
-void add_explain_command(Command& program, int& exit_code) {
-    Command* command =
+void add_command(cli::Command& program, int& exit_code) {
+    cli::Command* command =
         program.add_subcommand("explain", "Tell what a render does, what it leaves out, and what it will cost");
     auto request = std::make_shared<ExplainRequest>();
     request->scene.add_to(*command);
@@ -128,4 +129,4 @@ void add_explain_command(Command& program, int& exit_code) {
     command->callback([request, &exit_code] { exit_code = explain_command(*request); });
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

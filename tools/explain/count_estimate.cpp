@@ -7,7 +7,7 @@
 
 #include "src/render/confidence.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 namespace {
 
@@ -104,4 +104,4 @@ CountEstimate estimate_count(const PilotRun& pilot, double rays, const BlockCoun
     return estimate;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

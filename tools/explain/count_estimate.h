@@ -5,7 +5,7 @@
 
 #include "tools/explain/pilot.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 struct CountEstimate {
     double value = 0.0;
@@ -22,4 +22,4 @@ struct BlockCount {
 // Of a render of `rays` rays.
 CountEstimate estimate_count(const PilotRun& pilot, double rays, const BlockCount& count);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

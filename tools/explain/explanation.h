@@ -8,7 +8,7 @@
 #include "tools/explain/prediction.h"
 #include "tools/explain/recorded.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 struct Explanation {
     std::string name;  // of the scene
@@ -35,4 +35,4 @@ struct NamedCost {
 };
 std::vector<NamedCost> costs_of(const Explanation& explanation);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

@@ -1,15 +1,13 @@
-#include <nlohmann/json.hpp>
-
 #include "src/scene/enum_names.h"
 #include "tools/explain/explanation.h"
+#include "tools/report/json.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+using report::Json;
+using report::number;
 
 Json feature_json(const Feature& feature) {
     return {{"name", feature.name}, {"needed", feature.needed}, {"why", feature.why}};
@@ -23,7 +21,7 @@ Json octave_json(const OctavePlan& octave) {
             {"amplitude", octave.amplitude},
             {"wavelength", octave.wavelength},
             {"pixel_wide_at", octave.pixel_wide_at},
-            {"below_tolerance_from", optional(octave.below_tolerance_from)},
+            {"below_tolerance_from", number(octave.below_tolerance_from)},
             {"roles", std::move(roles)}};
 }
 
@@ -59,11 +57,11 @@ std::string explanation_json(const Explanation& explanation) {
                           {"bend", c.bend}});
     }
     for (const NamedCost& cost : costs_of(explanation)) {
-        costs[cost.name] = {{"predicted", optional(cost.predicted)},
+        costs[cost.name] = {{"predicted", number(cost.predicted)},
                             {"low", cost.between ? Json(cost.between->low) : Json(nullptr)},
                             {"high", cost.between ? Json(cost.between->high) : Json(nullptr)},
-                            {"actual", optional(cost.actual)},
-                            {"ratio", optional(cost.ratio())}};
+                            {"actual", number(cost.actual)},
+                            {"ratio", number(cost.ratio())}};
     }
     const Json json = {{"scene", explanation.name},
                        {"version", STRATA_VERSION},
@@ -82,8 +80,7 @@ std::string explanation_json(const Explanation& explanation) {
                        {"pilot", pilot_json(explanation.prediction)},
                        {"recorded", recorded_json(explanation)},
                        {"costs", std::move(costs)}};
-    // A scene's file name need not be UTF-8.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return report::text_of(json);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

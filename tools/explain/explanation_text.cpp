@@ -4,7 +4,7 @@
 #include "tools/cli/progress_printer.h"
 #include "tools/explain/explanation.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 namespace {
 
@@ -88,7 +88,7 @@ std::string relief_text(const Plan& plan) {
 std::string value_text(const std::string& name, const std::optional<double>& value) {
     if (!value) return "-";
     if (name.ends_with("bytes")) return fmt::format("{:.0f} MB", *value / 1e6);
-    if (name.ends_with("seconds")) return *value < 600 ? fmt::format("{:.3g} s", *value) : duration_text(*value);
+    if (name.ends_with("seconds")) return *value < 600 ? fmt::format("{:.3g} s", *value) : cli::duration_text(*value);
     return scaled(*value);
 }
 
@@ -169,4 +169,4 @@ std::string explanation_text(const Explanation& explanation) {
            relief_text(explanation.plan) + costs_text(explanation) + basis_text(explanation);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

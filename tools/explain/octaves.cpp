@@ -9,7 +9,7 @@
 #include "src/scene/camera_path.h"
 #include "src/trace/camera.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 namespace {
 
@@ -67,4 +67,4 @@ std::string octaves_note(const scene::Scene& scene, integrate::Tracer tracer) {
            "beside its cells; at a hit and for its normal all are.\n";
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

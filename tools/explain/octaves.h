@@ -6,7 +6,7 @@
 
 #include "tools/explain/plan.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 // Of a scene with a surface.
 std::vector<OctavePlan> plan_octaves(const scene::Scene& scene);
@@ -14,4 +14,4 @@ std::vector<OctavePlan> plan_octaves(const scene::Scene& scene);
 // How the tracer treats octaves, in a sentence or two.
 std::string octaves_note(const scene::Scene& scene, integrate::Tracer tracer);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

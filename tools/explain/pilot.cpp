@@ -9,7 +9,7 @@
 
 #include "src/render/render.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 namespace {
 
@@ -145,4 +145,4 @@ double estimator_seconds_a_ray(const estimate::EstimatorSettings& settings) {
     return result.cpu_seconds / static_cast<double>(result.counters.rays);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

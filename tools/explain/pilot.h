@@ -8,7 +8,7 @@
 #include "src/film/film.h"
 #include "src/integrate/image_function.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 struct PilotRun {
     integrate::Counters counters;               // of all blocks
@@ -28,4 +28,4 @@ PilotRun run_pilot(const integrate::ImageFunction& image, const estimate::Estima
 // CPU time of placing a sample and of adding it up, in seconds: what a constant picture costs under the estimator.
 double estimator_seconds_a_ray(const estimate::EstimatorSettings& settings);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

@@ -12,7 +12,7 @@
 #include "src/scene/needs.h"
 #include "tools/explain/octaves.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 namespace {
 
@@ -151,7 +151,7 @@ void add_estimator(FeatureList& list, const scene::Scene& scene) {
 
 }  // namespace
 
-Plan make_plan(const scene::Scene& scene, integrate::Tracer tracer, int passes, const std::vector<Aov>& aovs) {
+Plan make_plan(const scene::Scene& scene, integrate::Tracer tracer, int passes, const std::vector<job::Aov>& aovs) {
     FeatureList list;
     Plan plan;
     add_motion(list, scene);
@@ -169,11 +169,11 @@ Plan make_plan(const scene::Scene& scene, integrate::Tracer tracer, int passes, 
              passes > 1 ? fmt::format("{} passes are averaged; the costs below are those of one", passes)
                         : "one pass: nothing is summed up between passes");
     list.add("other channels", !aovs.empty(),
-             aovs.empty()
-                 ? "pictures hold colour alone: no depth, normals or other AOVs"
-                 : fmt::format("--aov: means over each pixel's samples in {}", fmt::join(aov_channels(aovs), ", ")));
+             aovs.empty() ? "pictures hold colour alone: no depth, normals or other AOVs"
+                          : fmt::format("--aov: means over each pixel's samples in {}",
+                                        fmt::join(job::aov_channels(aovs), ", ")));
     plan.features = list.take();
     return plan;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

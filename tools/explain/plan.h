@@ -10,7 +10,7 @@
 #include "src/scene/scene.h"
 #include "tools/job/aov.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 // Something that a renderer could do.
 struct Feature {
@@ -51,6 +51,7 @@ struct Plan {
 };
 
 // Of a valid scene. passes: of N*N samples each, to be averaged.
-Plan make_plan(const scene::Scene& scene, integrate::Tracer tracer, int passes = 1, const std::vector<Aov>& aovs = {});
+Plan make_plan(const scene::Scene& scene, integrate::Tracer tracer, int passes = 1,
+               const std::vector<job::Aov>& aovs = {});
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

@@ -15,7 +15,7 @@
 #include "tools/explain/count_estimate.h"
 #include "tools/explain/pilot.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 namespace {
 
@@ -44,12 +44,12 @@ double strip_memory(const film::Rect& window) {
 }
 
 // What pixels cost: in the strips and the encoder, the small pictures' sums, and drawing them, one after the other.
-double aov_memory(const film::Rect& window, const std::vector<Aov>& aovs) {
+double aov_memory(const film::Rect& window, const std::vector<job::Aov>& aovs) {
     if (aovs.empty()) return 0;
     constexpr double kCostBytes = 8, kChannelBytes = 8, kSumBytes = 17, kDrawnBytes = 42;
     const double strip_pixels = 1.0 * window.width() * std::min(image::kStripRows, window.height());
     const double longest = std::max(window.width(), window.height());
-    const double block = std::ceil(longest / kLongestCostSide);
+    const double block = std::ceil(longest / job::kLongestCostSide);
     const double small_pixels = 1.0 * window.width() * window.height() / (block * block);
     const auto count = static_cast<double>(aovs.size());
     return strip_pixels * (3 * kCostBytes + count * kChannelBytes) + small_pixels * (count * kSumBytes + kDrawnBytes);
@@ -182,4 +182,4 @@ Prediction predict(const scene::Scene& scene, const film::Rect& window, const Pr
     return prediction;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

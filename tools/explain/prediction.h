@@ -13,7 +13,7 @@
 #include "tools/explain/count_estimate.h"
 #include "tools/job/aov.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 // Nothing where it is not known. Predicted counts are rounded expectations; rays are exact.
 struct Costs {
@@ -56,11 +56,11 @@ struct PredictionSettings {
     integrate::Tracer tracer = integrate::Tracer::fast;
     int threads = 0;  // 0: as many as the machine has
     int passes = 1;   // costs are those of one, but memory
-    std::vector<Aov> aovs{};
+    std::vector<job::Aov> aovs{};
     bool with_pilot = true;
 };
 
 // Of rendering that window. Counts are the same in every run, times are not.
 Prediction predict(const scene::Scene& scene, const film::Rect& window, const PredictionSettings& settings);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

@@ -7,7 +7,7 @@
 #include "tools/cli/errors.h"
 #include "tools/cli/text_file.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 namespace {
 
@@ -15,11 +15,11 @@ using nlohmann::json;
 
 json parse_file(const std::filesystem::path& path) {
     std::string why;
-    const auto text = read_text_file(path, why);
-    if (!text) throw UsageError(fmt::format("--stats {}: cannot be read: {}", path.string(), why));
+    const auto text = cli::read_text_file(path, why);
+    if (!text) throw cli::UsageError(fmt::format("--stats {}: cannot be read: {}", path.string(), why));
     json parsed = json::parse(*text, nullptr, false);
     if (!parsed.is_object()) {
-        throw UsageError(fmt::format("--stats {}: not JSON that strata render --stats wrote", path.string()));
+        throw cli::UsageError(fmt::format("--stats {}: not JSON that strata render --stats wrote", path.string()));
     }
     return parsed;
 }
@@ -42,7 +42,7 @@ class Reader {
 
   private:
     [[noreturn]] void missing(const char* key) const {
-        throw UsageError(
+        throw cli::UsageError(
             fmt::format("--stats {}: has no '{}'; allowed: a file that this version's strata render "
                         "--stats wrote",
                         path_.string(), key));
@@ -58,7 +58,7 @@ Recorded read_recorded(const std::filesystem::path& path, const std::string& mar
     const json parsed = parse_file(path);
     const Reader reader(path, parsed);
     if (reader.text("settings_mark") != mark) {
-        throw UsageError(
+        throw cli::UsageError(
             fmt::format("--stats {}: of a render of another scene ('{}'), or with another setting, crop or "
                         "tracer; allowed: of the same render",
                         path.string(), reader.text("scene")));
@@ -66,7 +66,7 @@ Recorded read_recorded(const std::filesystem::path& path, const std::string& mar
     const double counted = reader.number("rays");
     const double passes = counted / static_cast<double>(rays);
     if (!(passes >= 1.0) || passes != static_cast<double>(static_cast<std::uint64_t>(passes))) {
-        throw UsageError(
+        throw cli::UsageError(
             fmt::format("--stats {}: of an interrupted render: {:.0f} of {} rays", path.string(), counted, rays));
     }
     Recorded recorded;
@@ -86,4 +86,4 @@ Recorded read_recorded(const std::filesystem::path& path, const std::string& mar
     return recorded;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

@@ -6,7 +6,7 @@
 
 #include "tools/explain/prediction.h"
 
-namespace strata::tools {
+namespace strata::tools::explain {
 
 struct Recorded {
     Costs costs;  // of one pass, where the render took several: shares of the whole
@@ -19,4 +19,4 @@ struct Recorded {
 // or of a render that was interrupted: its rays are no multiple of `rays`.
 Recorded read_recorded(const std::filesystem::path& path, const std::string& mark, std::uint64_t rays);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::explain

@@ -7,7 +7,7 @@
 
 #include "src/image/output_file.h"
 #include "src/image/text.h"
-#include "tools/cli/commands.h"
+#include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/planned_files.h"
 #include "tools/cli/process.h"
@@ -16,14 +16,13 @@
 #include "tools/figures/figure_maker.h"
 #include "tools/figures/films.h"
 #include "tools/figures/page.h"
-#include "tools/plot/plot.h"
+#include "tools/report/plot.h"
 
-namespace strata::tools {
+namespace strata::tools::figures {
 
 namespace {
 
 namespace fs = std::filesystem;
-using figures::Figure;
 
 constexpr int kMostThreads = 1024;
 constexpr const char* kPage = "index.html";
@@ -44,11 +43,11 @@ std::vector<std::string> split(const std::string& text) {
 }
 
 std::vector<Figure> chosen_figures(const std::string& only) {
-    const auto all = figures::all_figures();
+    const auto all = all_figures();
     if (only.empty()) return {all.begin(), all.end()};
     std::set<int> numbers;
     for (const std::string& word : split(only)) {
-        numbers.insert(parse_integer("--only", word, all.front().number, all.back().number));
+        numbers.insert(cli::parse_integer("--only", word, all.front().number, all.back().number));
     }
     std::vector<Figure> chosen;
     for (const Figure& figure : all) {
@@ -57,24 +56,24 @@ std::vector<Figure> chosen_figures(const std::string& only) {
     return chosen;
 }
 
-figures::Size parse_size(const std::string& name) {
-    const auto found = std::ranges::find(figures::kSizeNames, name);
-    if (found == std::end(figures::kSizeNames)) {
-        throw UsageError(fmt::format("--size {}: allowed: small, paper, large", name));
+Size parse_size(const std::string& name) {
+    const auto found = std::ranges::find(kSizeNames, name);
+    if (found == std::end(kSizeNames)) {
+        throw cli::UsageError(fmt::format("--size {}: allowed: small, paper, large", name));
     }
-    return static_cast<figures::Size>(found - std::begin(figures::kSizeNames));
+    return static_cast<Size>(found - std::begin(kSizeNames));
 }
 
 // The folder, made if need be; everything else that the figures need is there.
-void check_surroundings(const std::vector<Figure>& chosen, const figures::MakeOptions& options) {
+void check_surroundings(const std::vector<Figure>& chosen, const MakeOptions& options) {
     const fs::path& folder = options.folder;
     image::check_fonts();
-    if (std::ranges::any_of(chosen, &Figure::is_plot)) check_plotter();
+    if (std::ranges::any_of(chosen, &Figure::is_plot)) report::check_plotter();
     std::error_code error;
     fs::create_directories(folder, error);
-    if (error) throw UsageError(fmt::format("-o {}: {}", folder.string(), error.message()));
+    if (error) throw cli::UsageError(fmt::format("-o {}: {}", folder.string(), error.message()));
     for (const Figure& figure : chosen) {
-        for (const fs::path& path : figures::paths_of(figure, options)) image::check_replaceable(path);
+        for (const fs::path& path : paths_of(figure, options)) image::check_replaceable(path);
     }
     image::check_replaceable(folder / kPage);
 }
@@ -82,59 +81,59 @@ void check_surroundings(const std::vector<Figure>& chosen, const figures::MakeOp
 bool makes_films(const FiguresRequest& request) { return request.html && !request.no_films; }
 
 void say(const char* what, const fs::path& path, bool quiet) {
-    if (!quiet) print_out(fmt::format("{}     {}\n", what, path.string()));
+    if (!quiet) cli::print_out(fmt::format("{}     {}\n", what, path.string()));
 }
 
 // Each fails alone. False if one did.
-bool make_films(const figures::MakeOptions& options, const std::string& threads) {
+bool make_films(const MakeOptions& options, const std::string& threads) {
     bool all = true;
-    for (const figures::Film& film : figures::films(options.size)) {
-        const bool kept = !options.overwrite && figures::is_made(film, options.folder, options.quiet);
+    for (const Film& film : films(options.size)) {
+        const bool kept = !options.overwrite && is_made(film, options.folder, options.quiet);
         const auto make = [&] {
-            const figures::FilmOptions how{.folder = options.folder,
-                                           .size = options.size,
-                                           .threads = threads,
-                                           .quiet = options.quiet,
-                                           .overwrite = options.overwrite};
-            if (!figures::make_film(film, how)) throw figures::Interrupted();
+            const FilmOptions how{.folder = options.folder,
+                                  .size = options.size,
+                                  .threads = threads,
+                                  .quiet = options.quiet,
+                                  .overwrite = options.overwrite};
+            if (!make_film(film, how)) throw Interrupted();
         };
-        if (!kept) all &= is_written(options.folder / film.name, make);
+        if (!kept) all &= cli::is_written(options.folder / film.name, make);
         if (kept) say("kept", options.folder / film_files(film).front(), options.quiet);
     }
     return all;
 }
 
-void make_page(const figures::MakeOptions& options) {
-    figures::write_page(options.folder);
+void make_page(const MakeOptions& options) {
+    write_page(options.folder);
     say("made", options.folder / kPage, options.quiet);
 }
 
 int figures_command(const FiguresRequest& request) {
     static parallel::CancelToken cancel;
     const std::vector<Figure> chosen = chosen_figures(request.only);
-    const figures::MakeOptions options{.folder = request.folder,
-                                       .size = parse_size(request.size),
-                                       .threads = parse_integer("--threads", request.threads, 0, kMostThreads),
-                                       .quiet = request.quiet,
-                                       .overwrite = request.overwrite};
+    const MakeOptions options{.folder = request.folder,
+                              .size = parse_size(request.size),
+                              .threads = cli::parse_integer("--threads", request.threads, 0, kMostThreads),
+                              .quiet = request.quiet,
+                              .overwrite = request.overwrite};
     check_surroundings(chosen, options);
-    if (makes_films(request)) find_program("ffmpeg", "ffmpeg", "video");
+    if (makes_films(request)) cli::find_program("ffmpeg", "ffmpeg", "video");
     parallel::cancel_on_signals(cancel);
     int exit_code = 0;
     try {
-        if (!figures::make_figures(chosen, options, cancel)) exit_code = kExitRuntime;
-        if (makes_films(request) && !make_films(options, request.threads)) exit_code = kExitRuntime;
+        if (!make_figures(chosen, options, cancel)) exit_code = cli::kExitRuntime;
+        if (makes_films(request) && !make_films(options, request.threads)) exit_code = cli::kExitRuntime;
         if (request.html) make_page(options);
-    } catch (const figures::Interrupted&) {
-        if (!options.quiet) print_out("stopped  finished figures are kept: the same command makes the rest\n");
+    } catch (const Interrupted&) {
+        if (!options.quiet) cli::print_out("stopped  finished figures are kept: the same command makes the rest\n");
     }
-    return parallel::cancelling_signal() != 0 ? kExitSignal + parallel::cancelling_signal() : exit_code;
+    return parallel::cancelling_signal() != 0 ? cli::kExitSignal + parallel::cancelling_signal() : exit_code;
 }
 
 }  // namespace
 
-void add_figures_command(Command& program, int& exit_code) {
-    Command* command = program.add_subcommand("figures", "Make the figures of Gamito & Maddock 2006 anew");
+void add_command(cli::Command& program, int& exit_code) {
+    cli::Command* command = program.add_subcommand("figures", "Make the figures of Gamito & Maddock 2006 anew");
     auto request = std::make_shared<FiguresRequest>();
     command->add_option("--only", request->only, "Figures to make, 1 to 8, separated by commas; default all")
         ->type_name("K,K...");
@@ -171,4 +170,4 @@ void add_figures_command(Command& program, int& exit_code) {
     command->callback([request, &exit_code] { exit_code = figures_command(*request); });
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::figures

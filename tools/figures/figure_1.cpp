@@ -7,7 +7,7 @@
 
 #include "src/filter/bspline.h"
 #include "tools/figures/figure.h"
-#include "tools/plot/plot.h"
+#include "tools/report/plot.h"
 
 namespace strata::tools::figures {
 
@@ -33,8 +33,8 @@ double gaussian_gain(int m, double f) {
 double decibels(double g) { return g > 0 ? std::max(20 * std::log10(g), kFloor_dB) : kFloor_dB; }
 
 template <class Function>
-PlotSeries curve(const std::string& name, int colour, double from, double to, const Function& function) {
-    PlotSeries series;
+report::PlotSeries curve(const std::string& name, int colour, double from, double to, const Function& function) {
+    report::PlotSeries series;
     series.name = name;
     series.colour = colour;
     constexpr int kSteps = 1000;
@@ -52,15 +52,15 @@ int colour_of(int m) {
 
 // value(m, x) for every order, and dashed the Gaussians of some.
 template <class Spline, class Gaussian>
-std::vector<PlotSeries> curves(double from, double to, const Spline& spline, const Gaussian& limit) {
-    std::vector<PlotSeries> all;
+std::vector<report::PlotSeries> curves(double from, double to, const Spline& spline, const Gaussian& limit) {
+    std::vector<report::PlotSeries> all;
     for (const int m : kOrders) {
         all.push_back(curve(fmt::format("m = {}", m), colour_of(m), from, to, [&](double x) { return spline(m, x); }));
     }
     for (const int m : kGaussianOrders) {
         all.push_back(curve(m == kGaussianOrders[0] ? "Gaussian" : "", colour_of(m), from, to,
                             [&](double x) { return limit(m, x); }));
-        all.back().style = PlotStyle::dashed;
+        all.back().style = report::PlotStyle::dashed;
         all.back().line_width = 1.5;
     }
     return all;
@@ -68,22 +68,23 @@ std::vector<PlotSeries> curves(double from, double to, const Spline& spline, con
 
 // The gains at Nyquist as points, with their values in the legend.
 template <class Value, class Text>
-void mark_nyquist(PlotPanel& panel, const Value& value, const Text& text) {
-    panel.markers.push_back({.kind = PlotMarker::Kind::vertical, .at = kNyquist, .label = "Nyquist", .label_at = 0.96});
+void mark_nyquist(report::PlotPanel& panel, const Value& value, const Text& text) {
+    panel.markers.push_back(
+        {.kind = report::PlotMarker::Kind::vertical, .at = kNyquist, .label = "Nyquist", .label_at = 0.96});
     for (const int m : kOrders) {
-        PlotSeries point;
+        report::PlotSeries point;
         point.x = {kNyquist};
         point.y = {value(gain(m, kNyquist))};
         point.name = fmt::format("m = {}: {}", m, text(gain(m, kNyquist)));
-        point.style = PlotStyle::points;
-        point.shape = PlotShape::dot;
+        point.style = report::PlotStyle::points;
+        point.shape = report::PlotShape::dot;
         point.colour = colour_of(m);
         panel.series.push_back(std::move(point));
     }
 }
 
-PlotPanel density_panel() {
-    PlotPanel panel;
+report::PlotPanel density_panel() {
+    report::PlotPanel panel;
     panel.title = "B-splines n_m, centred";
     panel.x = {.label = "x / px", .min = -kReach_px, .max = kReach_px};
     panel.y = {.label = "n_m(x + m/2) / px⁻¹", .min = 0, .max = 1.45};
@@ -92,29 +93,29 @@ PlotPanel density_panel() {
     return panel;
 }
 
-PlotPanel gain_panel() {
-    PlotPanel panel;
+report::PlotPanel gain_panel() {
+    report::PlotPanel panel;
     panel.title = "Magnitude of their Fourier transforms";
     panel.x = {.label = "f / cycles a pixel", .min = 0, .max = kHighest};
     panel.y = {.label = "|n̂_m(f)|", .min = 0, .max = 1};
     panel.series = curves(0, kHighest, gain, gaussian_gain);
-    for (PlotSeries& series : panel.series) series.name.clear();
+    for (report::PlotSeries& series : panel.series) series.name.clear();
     mark_nyquist(
         panel, [](double g) { return g; }, [](double g) { return fmt::format("{:.3g}", g); });
     return panel;
 }
 
-PlotPanel decibel_panel() {
-    PlotPanel panel;
+report::PlotPanel decibel_panel() {
+    report::PlotPanel panel;
     panel.title = "The same in decibels";
     panel.x = {.label = "f / cycles a pixel", .min = 0, .max = kHighest};
     panel.y = {.label = "20 log₁₀ |n̂_m(f)| / dB", .min = kFloor_dB, .max = 5};
     panel.series = curves(
         0, kHighest, [](int m, double f) { return decibels(gain(m, f)); },
         [](int m, double f) { return decibels(gaussian_gain(m, f)); });
-    for (PlotSeries& series : panel.series) series.name.clear();
+    for (report::PlotSeries& series : panel.series) series.name.clear();
     mark_nyquist(panel, decibels, [](double g) { return fmt::format("{:.1f} dB", decibels(g)); });
-    panel.legend = PlotLegend::none;
+    panel.legend = report::PlotLegend::none;
     return panel;
 }
 
@@ -147,13 +148,13 @@ Plan plan(Size size) {
 }
 
 void draw(const Plan& plan, Pictures, const std::filesystem::path& folder) {
-    Plot plot;
+    report::Plot plot;
     plot.columns = 3;
     plot.width = plan.parameters["width_px"];
     plot.height = plan.parameters["height_px"];
     plot.font_size = std::max(9, 12 * plot.width / 1500);
     plot.panels = {density_panel(), gain_panel(), decibel_panel()};
-    for (const Shown& file : plan.shown) write_plot(plot, folder / file.file);
+    for (const Shown& file : plan.shown) report::write_plot(plot, folder / file.file);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "src/filter/bspline.h"
 #include "src/filter/bspline_paper.h"
 #include "tools/figures/figure.h"
-#include "tools/plot/plot.h"
+#include "tools/report/plot.h"
 
 namespace strata::tools::figures {
 
@@ -29,10 +29,10 @@ std::vector<double> probabilities() {
 }
 
 template <class Value>
-std::vector<PlotSeries> curves(const Value& value) {
-    std::vector<PlotSeries> all;
+std::vector<report::PlotSeries> curves(const Value& value) {
+    std::vector<report::PlotSeries> all;
     for (const int m : kOrders) {
-        PlotSeries series;
+        report::PlotSeries series;
         series.name = fmt::format("m = {}", m);
         series.x = probabilities();
         for (const double y : series.x) series.y.push_back(value(m, y));
@@ -41,8 +41,9 @@ std::vector<PlotSeries> curves(const Value& value) {
     return all;
 }
 
-PlotPanel panel_of(const std::string& title, const std::string& y_label, std::vector<PlotSeries> series) {
-    PlotPanel panel;
+report::PlotPanel panel_of(const std::string& title, const std::string& y_label,
+                           std::vector<report::PlotSeries> series) {
+    report::PlotPanel panel;
     panel.title = title;
     panel.x = {.label = "y, the probability to be inverted", .log = true, .min = kLeast, .max = 0.5};
     panel.y.label = y_label;
@@ -50,13 +51,15 @@ PlotPanel panel_of(const std::string& title, const std::string& y_label, std::ve
     return panel;
 }
 
-void mark_claim(PlotPanel& panel) {
-    panel.markers.push_back(
-        {.kind = PlotMarker::Kind::horizontal, .at = kClaimed, .label = "8: the paper's \"always\"", .label_at = 0.5});
+void mark_claim(report::PlotPanel& panel) {
+    panel.markers.push_back({.kind = report::PlotMarker::Kind::horizontal,
+                             .at = kClaimed,
+                             .label = "8: the paper's \"always\"",
+                             .label_at = 0.5});
 }
 
-PlotPanel newton_panel() {
-    PlotPanel panel =
+report::PlotPanel newton_panel() {
+    report::PlotPanel panel =
         panel_of("Newton's iterations from m/2 until |Δx| < 10⁻⁶ px (paper)", "iterations",
                  curves([](int m, double y) { return filter::paper::inverse_cdf_fast(m, y).iterations; }));
     panel.y.min = 0;
@@ -64,9 +67,9 @@ PlotPanel newton_panel() {
     return panel;
 }
 
-PlotPanel halley_panel(const PlotAxis& axis) {
-    PlotPanel panel = panel_of("Halley's steps on N_m^(1/m), to 10⁻¹³ px (ours)", "iterations",
-                               curves([](int m, double y) { return filter::bspline_invert(m, y).iterations; }));
+report::PlotPanel halley_panel(const report::PlotAxis& axis) {
+    report::PlotPanel panel = panel_of("Halley's steps on N_m^(1/m), to 10⁻¹³ px (ours)", "iterations",
+                                       curves([](int m, double y) { return filter::bspline_invert(m, y).iterations; }));
     panel.y = axis;
     // Lines that lie on each other, drawn one inside the other.
     for (std::size_t i = 0; i < panel.series.size(); ++i) {
@@ -76,17 +79,17 @@ PlotPanel halley_panel(const PlotAxis& axis) {
     return panel;
 }
 
-PlotPanel error_panel() {
+report::PlotPanel error_panel() {
     const auto error = [](int m, double y) {
         const double stopped = filter::paper::inverse_cdf_fast(m, y, filter::paper::kTolerance, kClaimed).x;
         return std::max(std::abs(stopped - filter::bspline_invert(m, y).x), kErrorFloor_px);
     };
-    PlotPanel panel = panel_of("Error left when Newton is stopped at 8", "error / px", curves(error));
+    report::PlotPanel panel = panel_of("Error left when Newton is stopped at 8", "error / px", curves(error));
     panel.y.log = true;
     panel.y.min = kErrorFloor_px;
     panel.y.max = 10;
-    panel.legend = PlotLegend::bottom_left;
-    panel.markers.push_back({.kind = PlotMarker::Kind::horizontal,
+    panel.legend = report::PlotLegend::bottom_left;
+    panel.markers.push_back({.kind = report::PlotMarker::Kind::horizontal,
                              .at = filter::kInverseError,
                              .label = "ours, everywhere below",
                              .label_at = 0.6});
@@ -141,17 +144,17 @@ Plan plan(Size size) {
 }
 
 void draw(const Plan& plan, Pictures, const std::filesystem::path& folder) {
-    Plot plot;
+    report::Plot plot;
     plot.columns = 3;
     plot.width = plan.parameters["width_px"];
     plot.height = plan.parameters["height_px"];
     plot.font_size = std::max(9, 12 * plot.width / 1500);
-    PlotPanel newton = newton_panel();
+    report::PlotPanel newton = newton_panel();
     double most = 0;
-    for (const PlotSeries& series : newton.series) most = std::max(most, *std::ranges::max_element(series.y));
+    for (const report::PlotSeries& series : newton.series) most = std::max(most, *std::ranges::max_element(series.y));
     newton.y.max = most * 1.05;
     plot.panels = {newton, halley_panel(newton.y), error_panel()};
-    for (const Shown& file : plan.shown) write_plot(plot, folder / file.file);
+    for (const Shown& file : plan.shown) report::write_plot(plot, folder / file.file);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "src/image/output_file.h"
 #include "src/scene/enum_names.h"
 #include "tools/figures/figure.h"
-#include "tools/plot/plot.h"
+#include "tools/report/plot.h"
 
 namespace strata::tools::figures {
 
@@ -49,26 +49,27 @@ std::vector<estimate::ProbeSample> samples_of(EstimatorKind kind) {
     return estimate::Estimator(settings).probe_samples(kPixel, kPixel);
 }
 
-PlotAxis axis(const char* label, bool downwards) {
-    PlotAxis result{.label = label, .min = -kReach_px, .max = kReach_px};
+report::PlotAxis axis(const char* label, bool downwards) {
+    report::PlotAxis result{.label = label, .min = -kReach_px, .max = kReach_px};
     for (const double boundary : {-1.5, -0.5, 0.5, 1.5}) {
         result.tics.push_back({downwards ? -boundary : boundary, fmt::format("{:.1f}", boundary)});
     }
     return result;
 }
 
-PlotPanel panel_of(const Pattern& pattern) {
-    PlotPanel panel;
+report::PlotPanel panel_of(const Pattern& pattern) {
+    report::PlotPanel panel;
     panel.title = pattern.title;
     panel.x = axis("u / px", false);
     panel.y = axis("v / px", true);
     panel.equal_scale = true;
-    panel.legend = PlotLegend::none;
+    panel.legend = report::PlotLegend::none;
     for (const double side : {-0.5, 0.5}) {
-        panel.markers.push_back({.kind = PlotMarker::Kind::vertical, .at = side, .label = "", .dashed = false});
-        panel.markers.push_back({.kind = PlotMarker::Kind::horizontal, .at = side, .label = "", .dashed = false});
+        panel.markers.push_back({.kind = report::PlotMarker::Kind::vertical, .at = side, .label = "", .dashed = false});
+        panel.markers.push_back(
+            {.kind = report::PlotMarker::Kind::horizontal, .at = side, .label = "", .dashed = false});
     }
-    PlotSeries dots;
+    report::PlotSeries dots;
     double heaviest = 0;
     const auto samples = samples_of(pattern.kind);
     for (const estimate::ProbeSample& sample : samples) heaviest = std::max(heaviest, sample.weight);
@@ -77,14 +78,14 @@ PlotPanel panel_of(const Pattern& pattern) {
         dots.y.push_back(-sample.v);
         dots.point_size.push_back(std::max(kLeastSize, std::sqrt(sample.weight / heaviest)));
     }
-    dots.style = PlotStyle::discs;
+    dots.style = report::PlotStyle::discs;
     dots.point_scale = pattern.radius_px;
     dots.colour = 0;
-    PlotSeries centre;
+    report::PlotSeries centre;
     centre.x = {0};
     centre.y = {0};
-    centre.style = PlotStyle::points;
-    centre.shape = PlotShape::diamond;
+    centre.style = report::PlotStyle::points;
+    centre.shape = report::PlotShape::diamond;
     centre.point_scale = 1.3;
     centre.colour = 1;
     panel.series = {dots, centre};
@@ -144,13 +145,13 @@ Plan plan(Size size) {
 void draw(const Plan& plan, Pictures, const std::filesystem::path& folder) {
     const std::string text = samples_text();
     image::replace_file(folder / kData, text);
-    Plot plot;
+    report::Plot plot;
     plot.columns = 4;
     plot.width = plan.parameters["width_px"];
     plot.height = plan.parameters["height_px"];
     plot.font_size = std::max(7, 11 * plot.width / 1480);
     for (const Pattern& pattern : kPatterns) plot.panels.push_back(panel_of(pattern));
-    for (const Shown& file : plan.shown) write_plot(plot, folder / file.file);
+    for (const Shown& file : plan.shown) report::write_plot(plot, folder / file.file);
 }
 
 }  // namespace

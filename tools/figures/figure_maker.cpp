@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "src/image/picture_metadata.h"
 #include "src/image/write.h"
 #include "src/scene/validate.h"
 #include "tools/cli/planned_files.h"
 #include "tools/cli/standard_output.h"
 #include "tools/figures/record.h"
-#include "tools/job/picture_metadata.h"
 #include "tools/job/render_picture.h"
 
 namespace strata::tools::figures {
@@ -50,7 +50,7 @@ class TotalProgress {
 
   private:
     double total_work_;
-    ProgressPrinter printer_;
+    cli::ProgressPrinter printer_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     double done_work_ = 0;
     std::uint64_t done_rays_ = 0, part_rays_ = 0;
@@ -81,22 +81,23 @@ class Maker {
 
     image::Picture render_part(const Part& part) {
         stop_if_cancelled();
-        RenderedPicture rendered =
-            render_picture(part.scene, part.window, integrate::Tracer::fast,
-                           {.threads = options_.threads, .on_progress = progress_.of_part(part), .cancel = &cancel_});
+        job::RenderedPicture rendered = job::render_picture(
+            part.scene, part.window, integrate::Tracer::fast,
+            {.threads = options_.threads, .on_progress = progress_.of_part(part), .cancel = &cancel_});
         if (rendered.result.cancelled) throw Interrupted();
         progress_.finish(part, rendered.result.counters.rays);
-        image::write_picture(options_.folder / part.file, rendered.picture,
-                             picture_metadata(part.scene, part.window, "fast", "float"),
-                             {.exr_format = image::ExrFormat::floating, .frames_per_second = frame_rate(part.scene)});
+        image::write_picture(
+            options_.folder / part.file, rendered.picture,
+            image::picture_metadata(part.scene, part.window, "fast", "float"),
+            {.exr_format = image::ExrFormat::floating, .frames_per_second = image::frame_rate(part.scene)});
         return std::move(rendered.picture);
     }
 
     void tell(const char* what, const Plan& plan) {
         progress_.clear();
         if (options_.quiet) return;
-        print_out(fmt::format("{}     {}\n", what, (options_.folder / plan.shown.front().file).string()));
-        flush_out();
+        cli::print_out(fmt::format("{}     {}\n", what, (options_.folder / plan.shown.front().file).string()));
+        cli::flush_out();
     }
 
     const MakeOptions& options_;
@@ -143,7 +144,8 @@ bool make_figures(const std::vector<Figure>& figures, const MakeOptions& options
         if (kept[i])
             maker.keep(plans[i]);
         else
-            all &= is_written(record_path(options.folder, plans[i].number), [&] { maker.make(figures[i], plans[i]); });
+            all &= cli::is_written(record_path(options.folder, plans[i].number),
+                                   [&] { maker.make(figures[i], plans[i]); });
     }
     return all;
 }

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "tools/cli/commands.h"
+#include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/process.h"
 #include "tools/figures/record.h"
+
+namespace strata::tools::animate {
+void add_command(cli::Command& program, int& exit_code);
+}
 
 namespace strata::tools::figures {
 
@@ -63,11 +67,11 @@ bool make_film(const Film& film, const FilmOptions& options) {
     if (options.overwrite) words.emplace_back("--overwrite");
     if (options.quiet) words.emplace_back("--quiet");
 
-    Command program;
+    cli::Command program;
     int exit_code = 0;
-    add_animate_command(program, exit_code);
+    animate::add_command(program, exit_code);
     program.parse(std::move(words));
-    if (exit_code == kExitRuntime) throw ProcessError(film.name + " could not be made");
+    if (exit_code == cli::kExitRuntime) throw cli::ProcessError(film.name + " could not be made");
     if (exit_code != 0) return false;
     write_record(record_path(film, options.folder), film_record(film), film_files(film));
     return true;

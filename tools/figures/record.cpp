@@ -25,9 +25,9 @@ ordered_json read_record(const fs::path& path) {
 
 // What is wrong with a file is told; that there is none goes without saying.
 bool has_its_bytes(const fs::path& file, const ordered_json& digest, bool quiet) {
-    const Found found = find_file(file, digest.is_string() ? digest.get<std::string>() : "");
-    if (found.presence == Presence::damaged && !quiet) tell_damaged(file, found);
-    return found.presence == Presence::same;
+    const job::Found found = job::find_file(file, digest.is_string() ? digest.get<std::string>() : "");
+    if (found.presence == job::Presence::damaged && !quiet) job::tell_damaged(file, found);
+    return found.presence == job::Presence::same;
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ bool is_made(const fs::path& path, const ordered_json& record, const std::vector
     if (!fs::exists(path, error)) return false;
     ordered_json found = read_record(path);
     if (found.is_null()) {
-        if (!quiet) tell_damaged(path, {Presence::damaged, "it is no record"});
+        if (!quiet) job::tell_damaged(path, {job::Presence::damaged, "it is no record"});
         return false;
     }
     if (found.empty()) return false;

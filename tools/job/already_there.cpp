@@ -11,7 +11,7 @@
 #include "src/scene/key_text.h"
 #include "tools/cli/standard_output.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 namespace fs = std::filesystem;
 
@@ -131,7 +131,7 @@ Found find_file(const fs::path& path, std::string_view digest) {
 }
 
 void tell_damaged(const fs::path& path, const Found& found) {
-    print_out(fmt::format("damaged  {}: {}; it is made again\n", path.string(), found.why));
+    cli::print_out(fmt::format("damaged  {}: {}; it is made again\n", path.string(), found.why));
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

@@ -9,7 +9,7 @@
 #include "src/image/metadata.h"
 #include "src/image/picture.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 enum class Presence {
     missing,
@@ -33,4 +33,4 @@ Found find_file(const std::filesystem::path& path, std::string_view digest);
 // A line on standard output: that the file is damaged, why, and that it is made again.
 void tell_damaged(const std::filesystem::path& path, const Found& found);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

@@ -10,7 +10,7 @@
 #include "src/scene/key_text.h"
 #include "tools/cli/errors.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 namespace {
 
@@ -38,7 +38,7 @@ std::vector<Aov> parse_aovs(const std::string& text) {
         const std::string word = text.substr(begin, end - begin);
         begin = end + 1;
         if (word != "steps" && word != "evals") {
-            throw UsageError(
+            throw cli::UsageError(
                 fmt::format("--aov {}: allowed: steps, evals, or both with a comma", scene::excerpt(text)));
         }
         const Aov aov = word == "steps" ? Aov::steps : Aov::evals;
@@ -48,11 +48,11 @@ std::vector<Aov> parse_aovs(const std::string& text) {
     return aovs;
 }
 
-std::vector<Aov> aovs_of(const std::string& typed, const LoadedScene& loaded, int passes) {
+std::vector<Aov> aovs_of(const std::string& typed, const cli::LoadedScene& loaded, int passes) {
     if (typed.empty() && !loaded.aovs) return {};
     std::vector<Aov> aovs = parse_aovs(!typed.empty() ? typed : *loaded.aovs);
     if (passes > 1) {
-        throw UsageError("--aov: allowed with one pass; not with --passes, --target-rmse or --time-limit");
+        throw cli::UsageError("--aov: allowed with one pass; not with --passes, --target-rmse or --time-limit");
     }
     return aovs;
 }
@@ -120,4 +120,4 @@ image::Canvas CostPicture::draw(const std::string& title) const {
     return image::compose(sheet);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

@@ -10,7 +10,7 @@
 #include "src/image/metadata.h"
 #include "tools/cli/scene_argument.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 // In the order of their channels.
 enum class Aov { evals, steps };
@@ -21,7 +21,7 @@ std::string name_of(Aov aov);
 std::vector<Aov> parse_aovs(const std::string& text);
 
 // Those of --aov, empty if not given, else those that the picture recorded. Throws UsageError, for several passes too.
-std::vector<Aov> aovs_of(const std::string& typed, const LoadedScene& loaded, int passes);
+std::vector<Aov> aovs_of(const std::string& typed, const cli::LoadedScene& loaded, int passes);
 
 // Channels of an EXR: "evals.Y", "steps.Y".
 std::vector<std::string> aov_channels(const std::vector<Aov>& aovs);
@@ -52,4 +52,4 @@ class CostPicture {
     double whole_sum_ = 0;
 };
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

@@ -1,6 +1,6 @@
 #include "tools/job/batch_progress.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 double expected_rays(const scene::Scene& scene, const film::Rect& window) {
     const scene::Sampling& sampling = scene.sampling;
@@ -26,4 +26,4 @@ void BatchProgress::advance(const parallel::Progress& progress) {
            .seconds = seconds});
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

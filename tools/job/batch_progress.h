@@ -8,7 +8,7 @@
 #include "src/parallel/progress.h"
 #include "src/scene/scene.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 // Rays that a render will cast, nearly: what its share of the work is taken to be.
 double expected_rays(const scene::Scene& scene, const film::Rect& window);
@@ -31,4 +31,4 @@ class BatchProgress {
     std::uint64_t rays_ = 0, current_rays_ = 0;
 };
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

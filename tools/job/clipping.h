@@ -7,11 +7,11 @@
 
 #include "tools/cli/standard_output.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 // For image::WriteOptions::warn.
 inline void warn_of_clipping(const std::string& what) {
-    print_error(fmt::format("warning: {}; --format float keeps it", what));
+    cli::print_error(fmt::format("warning: {}; --format float keeps it", what));
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

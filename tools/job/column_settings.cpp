@@ -17,7 +17,7 @@
 #include "src/scene/validate.h"
 #include "tools/cli/errors.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 namespace {
 
@@ -35,8 +35,8 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-UsageError problem(std::string_view origin, std::string_view entry, const std::string& what) {
-    return UsageError(fmt::format("{} '{}': {}", origin, scene::excerpt(entry), what));
+cli::UsageError problem(std::string_view origin, std::string_view entry, const std::string& what) {
+    return cli::UsageError(fmt::format("{} '{}': {}", origin, scene::excerpt(entry), what));
 }
 
 // Cuts text at the separators that stand outside quotes and brackets. Pieces come trimmed, empty ones too.
@@ -156,9 +156,10 @@ std::string full_key_name(std::string_view origin, std::string_view name) {
     }
     if (found.size() == 1) return found.front();
     if (found.size() > 1) {
-        throw UsageError(fmt::format("{}: {}: several keys end so, allowed: {}", origin, name, fmt::join(found, ", ")));
+        throw cli::UsageError(
+            fmt::format("{}: {}: several keys end so, allowed: {}", origin, name, fmt::join(found, ", ")));
     }
-    throw UsageError(fmt::format("{}: {}", origin, scene::unknown_key(sections, section_name, last)));
+    throw cli::UsageError(fmt::format("{}: {}", origin, scene::unknown_key(sections, section_name, last)));
 }
 
 std::vector<ColumnSettings> parse_columns(std::string_view origin, std::string_view text) {
@@ -186,4 +187,4 @@ scene::Scene with_settings(const scene::Scene& scene, const ColumnSettings& colu
     return changed;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

@@ -13,7 +13,7 @@
 
 #include "src/scene/scene.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 struct ColumnSettings {
     std::string text;                      // as typed, without blanks around it
@@ -37,4 +37,4 @@ std::string full_key_name(std::string_view origin, std::string_view name);
 // The scene with the entry's settings, validated. Throws scene::SceneError, beginning with origin and the entry's text.
 scene::Scene with_settings(const scene::Scene& scene, const ColumnSettings& column, std::string_view origin);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

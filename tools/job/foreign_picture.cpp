@@ -10,7 +10,7 @@
 #include "tools/cli/errors.h"
 #include "tools/cli/standard_output.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 ForeignPicture read_foreign_picture(const std::filesystem::path& path, const std::string& typed, bool quiet) {
     ForeignPicture picture;
@@ -21,11 +21,11 @@ ForeignPicture read_foreign_picture(const std::filesystem::path& path, const std
         picture.linear =
             image::read_linear(path, picture.scene ? image::colour_out(picture.scene->film) : image::ColourOut());
     } catch (const image::ImageError& error) {
-        throw UsageError(error.what());
+        throw cli::UsageError(error.what());
     }
     const std::string not_finite = image::describe_not_finite(picture.linear);
-    if (!not_finite.empty() && !quiet) print_error(fmt::format("warning: {}: {}", typed, not_finite));
+    if (!not_finite.empty() && !quiet) cli::print_error(fmt::format("warning: {}: {}", typed, not_finite));
     return picture;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

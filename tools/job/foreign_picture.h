@@ -8,7 +8,7 @@
 #include "src/image/picture.h"
 #include "src/scene/scene.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 struct ForeignPicture {
     image::Picture linear;              // NaN and infinity included
@@ -19,4 +19,4 @@ struct ForeignPicture {
 // cannot be read, SceneError for a scene that cannot.
 ForeignPicture read_foreign_picture(const std::filesystem::path& path, const std::string& typed, bool quiet);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

@@ -13,7 +13,7 @@
 #include "src/scene/key_text.h"
 #include "src/scene/keys.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 namespace {
 
@@ -79,4 +79,4 @@ std::vector<std::string> labels_of(const std::vector<std::optional<scene::Scene>
     return labels;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

@@ -7,7 +7,7 @@
 
 #include "src/scene/scene.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 // A label for each picture, from the scenes that they were rendered from: the keys in which these differ, "N = 2,
 // m = 4", or estimator, N and m where they do not differ. Where a scene is not known, or its label would be another's
@@ -15,4 +15,4 @@ namespace strata::tools {
 std::vector<std::string> labels_of(const std::vector<std::optional<scene::Scene>>& scenes,
                                    const std::vector<std::string>& names);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

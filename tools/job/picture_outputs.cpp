@@ -10,7 +10,7 @@
 #include "tools/cli/planned_files.h"
 #include "tools/cli/standard_output.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 namespace fs = std::filesystem;
 
@@ -30,7 +30,7 @@ void PictureOutputs::begin(const image::Metadata& metadata) {
 }
 
 void PictureOutputs::begin_late(const image::Metadata& metadata) {
-    for (Output& output : outputs_) is_written(output.path, [&] { begin(output, metadata); });
+    for (Output& output : outputs_) cli::is_written(output.path, [&] { begin(output, metadata); });
 }
 
 // Of each file that is left: a failure ends that file alone.
@@ -38,7 +38,7 @@ template <class Action>
 void PictureOutputs::for_each(const Action& action) {
     for (Output& output : outputs_) {
         if (!output.stream) continue;
-        if (!is_written(output.path, [&] { action(output); })) output.stream.reset();
+        if (!cli::is_written(output.path, [&] { action(output); })) output.stream.reset();
     }
 }
 
@@ -73,7 +73,7 @@ bool PictureOutputs::write_costs() {
     bool all = true;
     for (Costs& costs : costs_) {
         const fs::path& path = costs.file.target();
-        all &= is_written(path, [&] {
+        all &= cli::is_written(path, [&] {
             const image::Canvas canvas = costs.picture.draw(job_.loaded.scene.title);
             costs.file.write_at(0, image::encode_canvas(path, canvas, job_.metadata));
             costs.file.put_in_place();
@@ -87,7 +87,7 @@ bool PictureOutputs::write_partial_costs(const image::Metadata& metadata) {
     bool all = true;
     for (const Costs& costs : costs_) {
         const fs::path path = partial_path(job_, costs.file.target());
-        all &= is_written(path, [&] {
+        all &= cli::is_written(path, [&] {
             image::write_canvas(path, costs.picture.draw(job_.loaded.scene.title), metadata);
             tell_written(path);
         });
@@ -96,7 +96,7 @@ bool PictureOutputs::write_partial_costs(const image::Metadata& metadata) {
 }
 
 void PictureOutputs::tell_written(const fs::path& path) const {
-    if (!job_.quiet) print_out(fmt::format("wrote    {}\n", path.string()));
+    if (!job_.quiet) cli::print_out(fmt::format("wrote    {}\n", path.string()));
 }
 
 bool PictureOutputs::finish() {
@@ -118,4 +118,4 @@ bool PictureOutputs::finish_partial(const image::Metadata& metadata) {
     return write_partial_costs(metadata) && all();
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

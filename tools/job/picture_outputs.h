@@ -14,7 +14,7 @@
 #include "src/image/picture_stream.h"
 #include "tools/job/render_job.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 // A file that cannot be written is told on standard error and given up; the others go on.
 class PictureOutputs {
@@ -71,4 +71,4 @@ class PictureOutputs {
     std::vector<Output> outputs_;
 };
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

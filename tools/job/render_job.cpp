@@ -9,6 +9,7 @@
 #include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
+#include "src/image/picture_metadata.h"
 #include "src/image/read.h"
 #include "src/image/stream_target.h"
 #include "src/image/text.h"
@@ -21,10 +22,9 @@
 #include "tools/cli/planned_files.h"
 #include "tools/cli/standard_output.h"
 #include "tools/job/clipping.h"
-#include "tools/job/picture_metadata.h"
 #include "tools/job/run_statistics.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 namespace {
 
@@ -41,8 +41,8 @@ std::string choose(const std::string& given, const std::optional<std::string>& r
 image::ExrFormat parse_format(const std::string& name) {
     if (name == "half") return image::ExrFormat::half;
     if (name == "float") return image::ExrFormat::floating;
-    throw UsageError(fmt::format("--format {}: allowed: half, float; exr, png, tif, jpg of a pipe or standard output",
-                                 scene::excerpt(name)));
+    throw cli::UsageError(fmt::format(
+        "--format {}: allowed: half, float; exr, png, tif, jpg of a pipe or standard output", scene::excerpt(name)));
 }
 
 // What --format says of EXR channels; nothing where it names the format of a stream.
@@ -60,15 +60,15 @@ fs::path with_format(const fs::path& path, const std::string& format) {
 void check_stream_format(const RenderRequest& request) {
     const auto is_stream = [](const std::string& path) { return image::stream_target(path).has_value(); };
     if (!image::known_format("." + request.format) || std::ranges::any_of(request.outputs, is_stream)) return;
-    throw UsageError(
+    throw cli::UsageError(
         fmt::format("--format {}: allowed with -o - or a pipe; a file's extension tells its format", request.format));
 }
 
 // Bits depend on the SIMD target: a picture is rendered again on its own, where that is here.
-void choose_simd_target(const RenderRequest& request, const LoadedScene& loaded) {
-    if (!request.simd.empty()) return use_simd_target(request.simd);
+void choose_simd_target(const RenderRequest& request, const cli::LoadedScene& loaded) {
+    if (!request.simd.empty()) return cli::use_simd_target(request.simd);
     if (!loaded.simd_target || noise::pin_simd_target(*loaded.simd_target) || request.quiet) return;
-    print_error(
+    cli::print_error(
         fmt::format("warning: {} was made with --simd {}, which this machine lacks; with {} it may differ by "
                     "rounding",
                     loaded.source, *loaded.simd_target, noise::simd_target()));
@@ -81,7 +81,7 @@ void check_memory(const film::Rect& window, const render::PassGoal& goal, const 
     const double needed = 1.0 * render::bytes_a_pixel_of_passes(estimator) * window.width() * window.height();
     const double present = static_cast<double>(parallel::available_memory_bytes());
     if (needed <= present) return;
-    throw UsageError(
+    throw cli::UsageError(
         fmt::format("{}x{} pixels in passes need {:.1f} GB of memory, there are {:.1f} GB (of this machine, or of its "
                     "container); allowed: one pass, a "
                     "smaller --size, or the frame in parts by --crop",
@@ -92,20 +92,20 @@ double parse_target(const std::string& text) {
     constexpr double kLeast = 1e-9, kMost = 1e6;
     const auto value = scene::typed_number(text);
     if (value && *value >= kLeast && *value <= kMost) return *value;
-    throw UsageError(
+    throw cli::UsageError(
         fmt::format("--target-rmse {}: allowed: a linear radiance, {} to {}", scene::excerpt(text), kLeast, kMost));
 }
 
-render::PassGoal choose_goal(const RenderRequest& request, const LoadedScene& loaded) {
+render::PassGoal choose_goal(const RenderRequest& request, const cli::LoadedScene& loaded) {
     const scene::EstimatorKind estimator = loaded.scene.sampling.estimator;
     render::PassGoal goal;
     if (!request.target_rmse.empty()) goal.target_rmse = parse_target(request.target_rmse);
-    if (!request.time_limit.empty()) goal.time_limit_s = parse_duration("--time-limit", request.time_limit);
+    if (!request.time_limit.empty()) goal.time_limit_s = cli::parse_duration("--time-limit", request.time_limit);
     const bool open_ended = goal.target_rmse > 0 || goal.time_limit_s > 0;
     if (open_ended) goal.passes = render::kMostPasses;
-    if (!request.passes.empty()) goal.passes = parse_integer("--passes", request.passes, 1, render::kMostPasses);
+    if (!request.passes.empty()) goal.passes = cli::parse_integer("--passes", request.passes, 1, render::kMostPasses);
     if (goal.passes > 1 && !render::passes_differ(estimator)) {
-        throw UsageError(fmt::format(
+        throw cli::UsageError(fmt::format(
             "{}: passes of the estimator '{}' are all alike, their mean is no better than one; allowed with passes: "
             "jittered, stratified, random, sobol, shared, shared-sobol",
             !request.target_rmse.empty() ? "--target-rmse"
@@ -116,7 +116,7 @@ render::PassGoal choose_goal(const RenderRequest& request, const LoadedScene& lo
     // A picture rendered again with another estimator may have lost its use for passes.
     if (request.passes.empty() && !open_ended && loaded.passes && render::passes_differ(estimator)) {
         goal.passes =
-            parse_integer((loaded.source + ": its strata:passes").c_str(), *loaded.passes, 1, render::kMostPasses);
+            cli::parse_integer((loaded.source + ": its strata:passes").c_str(), *loaded.passes, 1, render::kMostPasses);
     }
     return goal;
 }
@@ -126,11 +126,11 @@ void check_output(const fs::path& path, const Job& job) {
         image::format_of(path);
         image::check_size(path, job.window.width(), job.window.height());
     } catch (const image::ImageError& error) {
-        throw UsageError(error.what());
+        throw cli::UsageError(error.what());
     }
     if (image::stream_target(path)) return image::check_writable(path);
     if (image::is_one_file(path, job.loaded.source) && !image::is_picture(path)) {
-        throw UsageError(fmt::format("{}: this output is the scene file itself", path.string()));
+        throw cli::UsageError(fmt::format("{}: this output is the scene file itself", path.string()));
     }
     image::check_writable(path);
 }
@@ -149,7 +149,7 @@ std::vector<fs::path> output_paths(const RenderRequest& request, const Job& job)
         }
     }
     if (std::ranges::count_if(paths, image::is_standard_output) > 1) {
-        throw UsageError("-o: two pictures for standard output, allowed: one");
+        throw cli::UsageError("-o: two pictures for standard output, allowed: one");
     }
     return paths;
 }
@@ -167,7 +167,7 @@ void check_aov_paths(const Job& job) {
         image::check_writable(path);
         if (std::ranges::any_of(job.outputs,
                                 [&](const fs::path& output) { return image::is_one_file(path, output); })) {
-            throw UsageError(
+            throw cli::UsageError(
                 fmt::format("-o {}: allowed: another name, this is where --aov {} goes", path.string(), name_of(aov)));
         }
     }
@@ -181,13 +181,13 @@ void check_statistics(const Job& job) {
         return image::is_one_file(path, job.statistics);
     };
     if (is_statistics(job.loaded.source) || std::ranges::any_of(job.outputs, is_statistics)) {
-        throw UsageError(fmt::format("--stats {}: allowed: a file of its own", job.statistics.string()));
+        throw cli::UsageError(fmt::format("--stats {}: allowed: a file of its own", job.statistics.string()));
     }
 }
 
 // All that is written, as it was asked for.
-std::vector<NamedOutput> named_outputs(const Job& job) {
-    std::vector<NamedOutput> outputs;
+std::vector<cli::NamedOutput> named_outputs(const Job& job) {
+    std::vector<cli::NamedOutput> outputs;
     for (const fs::path& path : job.outputs) outputs.push_back({fmt::format("-o {}", path.string()), path});
     for (const Aov aov : job.aovs) {
         outputs.push_back({fmt::format("--aov {}", name_of(aov)), aov_path(job, aov)});
@@ -199,7 +199,7 @@ std::vector<NamedOutput> named_outputs(const Job& job) {
 
 // The folders of links may differ from that of the output.
 void check_partial_paths(const Job& job) {
-    for (const NamedOutput& output : named_outputs(job)) {
+    for (const cli::NamedOutput& output : named_outputs(job)) {
         if (output.path == job.statistics || image::stream_target(output.path)) continue;
         image::check_writable(partial_path(job, output.path));
     }
@@ -211,7 +211,7 @@ void check_limits(const Job& job) {
         try {
             image::check_encodable(path, job.shape(), final_metadata(job, job.goal.passes, true), job.write);
         } catch (const image::ImageError& error) {
-            throw UsageError(error.what());
+            throw cli::UsageError(error.what());
         }
     }
 }
@@ -225,18 +225,18 @@ fs::path aov_path(const Job& job, Aov aov) {
 }
 
 fs::path partial_path(const Job& job, const fs::path& path) {
-    const std::vector<NamedOutput> outputs = named_outputs(job);
+    const std::vector<cli::NamedOutput> outputs = named_outputs(job);
     for (int i = 1;; ++i) {
         const std::string count = i == 1 ? "" : fmt::format("-{}", i);
         fs::path partial = image::derived_path(path, fmt::format(".partial{}{}", count, path.extension().string()));
-        const auto is_it = [&](const NamedOutput& output) { return image::is_one_file(output.path, partial); };
+        const auto is_it = [&](const cli::NamedOutput& output) { return image::is_one_file(output.path, partial); };
         if (std::ranges::none_of(outputs, is_it)) return partial;
     }
 }
 
 image::Metadata final_metadata(const Job& job, int passes, bool is_partial) {
     image::Metadata metadata = job.metadata;
-    set_passes(metadata, job.loaded.scene.sampling, passes);
+    image::set_passes(metadata, job.loaded.scene.sampling, passes);
     if (!is_partial) return metadata;
     metadata.set("strata:partial", passes == 0 ? "unfinished pixels are black"
                                                : fmt::format("the mean of {} whole passes; more were wanted", passes));
@@ -251,20 +251,20 @@ image::PictureShape Job::shape() const {
 Job prepare(const RenderRequest& request) {
     Job job;
     job.quiet = request.quiet;
-    job.threads = parse_integer("--threads", request.threads, 0, kMostThreads);
-    job.tile = parse_integer("--tile", request.tile, 1, kLargestTile);
+    job.threads = cli::parse_integer("--threads", request.threads, 0, kMostThreads);
+    job.tile = cli::parse_integer("--tile", request.tile, 1, kLargestTile);
     job.loaded = request.scene.load();
     choose_simd_target(request, job.loaded);
-    job.window = window_of(request.crop, job.loaded);
+    job.window = cli::window_of(request.crop, job.loaded);
     job.tracer = choose(request.tracer, job.loaded.tracer, "fast");
-    parse_tracer(job.tracer);
+    cli::parse_tracer(job.tracer);
     check_stream_format(request);
     const std::string format = choose(channels_format(request), job.loaded.exr_format, "half");
     const bool is_tiled = request.tiled || job.loaded.is_tiled;
     job.write = {.colour = image::colour_out(job.loaded.scene.film),
                  .exr_format = parse_format(format),
                  .exr_layout = is_tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic,
-                 .frames_per_second = frame_rate(job.loaded.scene)};
+                 .frames_per_second = image::frame_rate(job.loaded.scene)};
     if (!request.quiet) job.write.warn = warn_of_clipping;
     job.goal = choose_goal(request, job.loaded);
     choose_aovs(request, job);
@@ -273,11 +273,11 @@ Job prepare(const RenderRequest& request) {
     check_aov_paths(job);
     job.statistics = request.statistics;
     check_statistics(job);
-    refuse_shared(named_outputs(job));
+    cli::refuse_shared(named_outputs(job));
     check_partial_paths(job);
-    for (const fs::path& path : job.outputs) keep_output_for(path);
-    keep_output_for(job.statistics);
-    job.metadata = picture_metadata(job.loaded.scene, job.window, job.tracer, format);
+    for (const fs::path& path : job.outputs) cli::keep_output_for(path);
+    cli::keep_output_for(job.statistics);
+    job.metadata = image::picture_metadata(job.loaded.scene, job.window, job.tracer, format);
     if (is_tiled) job.metadata.set("strata:tiled", "asked for");
     std::string aovs;
     for (const Aov aov : job.aovs) aovs += fmt::format("{}{}", aovs.empty() ? "" : ",", name_of(aov));
@@ -286,4 +286,4 @@ Job prepare(const RenderRequest& request) {
     return job;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

@@ -13,11 +13,11 @@
 #include "tools/cli/scene_argument.h"
 #include "tools/job/aov.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 // The options as typed; empty where there is none.
 struct RenderRequest {
-    SceneArgument scene;
+    cli::SceneArgument scene;
     std::vector<std::string> outputs;
     std::string crop, tracer, simd, format, statistics, threads = "0", tile = "32";
     std::string passes, target_rmse, time_limit, aov;
@@ -26,7 +26,7 @@ struct RenderRequest {
 
 // All that is known before the first ray.
 struct Job {
-    LoadedScene loaded;
+    cli::LoadedScene loaded;
     film::Rect window;
     std::vector<std::filesystem::path> outputs;
     std::vector<Aov> aovs;
@@ -54,4 +54,4 @@ std::filesystem::path partial_path(const Job& job, const std::filesystem::path& 
 // All that a picture of `passes` passes says of itself, one that was stopped if `is_partial`.
 image::Metadata final_metadata(const Job& job, int passes, bool is_partial);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

@@ -4,7 +4,7 @@
 
 #include "src/integrate/make_image.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 namespace {
 
@@ -41,4 +41,4 @@ ProgressivePicture render_picture(const scene::Scene& scene, const film::Rect& w
     return rendered;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

@@ -9,7 +9,7 @@
 #include "src/render/render.h"
 #include "src/scene/scene.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 struct RenderedPicture {
     image::Picture picture;  // black where it is not finished
@@ -31,4 +31,4 @@ struct ProgressivePicture {
 ProgressivePicture render_picture(const scene::Scene& scene, const film::Rect& window, integrate::Tracer tracer,
                                   const render::PassGoal& goal, const render::RenderOptions& options);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

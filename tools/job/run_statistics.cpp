@@ -5,15 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "noise/simd_target.h"
 #include "tools/cli/progress_printer.h"
+#include "tools/report/json.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 namespace {
 
@@ -70,27 +70,21 @@ std::string passes_summary(const PassStatistics& passes) {
     return text + (said.empty() ? "" : ", ") + said + "\n";
 }
 
-// null where nothing is known: JSON has no infinity.
-nlohmann::ordered_json number_or_null(double value, bool known = true) {
-    if (!known || !std::isfinite(value)) return nullptr;
-    return value;
-}
-
-nlohmann::ordered_json passes_json(const PassStatistics& passes) {
+report::Json passes_json(const PassStatistics& passes) {
     const render::ErrorEstimate error = passes.error.value_or(render::ErrorEstimate{});
     const bool known = passes.error.has_value();
-    nlohmann::ordered_json predicted = nullptr;
+    report::Json predicted = nullptr;
     if (passes.predicted_passes) predicted = *passes.predicted_passes;
     return {{"passes", passes.passes},
             {"stopped_by", end_name(passes.end)},
-            {"estimated_rmse", number_or_null(error.rmse, known)},
-            {"estimated_rmse_low", number_or_null(error.low, known)},
-            {"estimated_rmse_high", number_or_null(error.high, known)},
-            {"estimated_bias", number_or_null(error.bias, known)},
-            {"target_rmse", number_or_null(passes.goal.target_rmse, passes.goal.target_rmse > 0)},
-            {"time_limit_s", number_or_null(passes.goal.time_limit_s, passes.goal.time_limit_s > 0)},
+            {"estimated_rmse", report::number(error.rmse, known)},
+            {"estimated_rmse_low", report::number(error.low, known)},
+            {"estimated_rmse_high", report::number(error.high, known)},
+            {"estimated_bias", report::number(error.bias, known)},
+            {"target_rmse", report::number(passes.goal.target_rmse, passes.goal.target_rmse > 0)},
+            {"time_limit_s", report::number(passes.goal.time_limit_s, passes.goal.time_limit_s > 0)},
             {"predicted_passes", predicted},
-            {"predicted_seconds", number_or_null(passes.predicted_seconds, passes.predicted_seconds > 0)}};
+            {"predicted_seconds", report::number(passes.predicted_seconds, passes.predicted_seconds > 0)}};
 }
 
 // What shares refer to: phases are measured by the clock, which runs on while others have the processor.
@@ -114,8 +108,8 @@ std::vector<std::pair<std::string, integrate::PhaseCost>> phases(const RunStatis
     return phases;
 }
 
-nlohmann::ordered_json phases_json(const RunStatistics& statistics) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+report::Json phases_json(const RunStatistics& statistics) {
+    report::Json json = report::Json::array();
     for (const auto& [name, cost] : phases(statistics)) {
         json.push_back({{"phase", name},
                         {"seconds", cost.seconds},
@@ -180,7 +174,7 @@ std::string summary(const RunStatistics& statistics) {
     const integrate::Counters& c = statistics.counters;
     const double rays = static_cast<double>(c.rays), shadow_rays = static_cast<double>(c.shadow_rays);
     std::string text = fmt::format("time     {} ({:.2f} s on {} thread{}, {:.2f} s of CPU, {})\n",
-                                   duration_text(statistics.seconds), statistics.seconds, statistics.threads,
+                                   cli::duration_text(statistics.seconds), statistics.seconds, statistics.threads,
                                    statistics.threads == 1 ? "" : "s", statistics.cpu_seconds, statistics.simd_target);
     text += fmt::format("rays     {} and {} shadow rays, {}rays/s\n", scaled(rays), scaled(shadow_rays),
                         scaled((rays + shadow_rays) / std::max(statistics.seconds, 1e-9)));
@@ -197,25 +191,24 @@ std::string summary(const RunStatistics& statistics) {
 
 std::string statistics_json(const RunStatistics& statistics) {
     const integrate::Counters& c = statistics.counters;
-    nlohmann::ordered_json json = {{"scene", statistics.scene},
-                                   {"version", STRATA_VERSION},
-                                   {"simd_target", statistics.simd_target},
-                                   {"threads", statistics.threads},
-                                   {"rays", c.rays},
-                                   {"shadow_rays", c.shadow_rays},
-                                   {"hits", c.hits},
-                                   {"unresolved_rays", c.unresolved_rays},
-                                   {"noise_evaluations", c.noise_evaluations},
-                                   {"executed_lanes", c.executed_lanes},
-                                   {"steps", c.steps},
-                                   {"seconds", statistics.seconds},
-                                   {"cpu_seconds", statistics.cpu_seconds},
-                                   {"peak_memory_bytes", statistics.peak_memory_bytes},
-                                   {"phases", phases_json(statistics)}};
+    report::Json json = {{"scene", statistics.scene},
+                         {"version", STRATA_VERSION},
+                         {"simd_target", statistics.simd_target},
+                         {"threads", statistics.threads},
+                         {"rays", c.rays},
+                         {"shadow_rays", c.shadow_rays},
+                         {"hits", c.hits},
+                         {"unresolved_rays", c.unresolved_rays},
+                         {"noise_evaluations", c.noise_evaluations},
+                         {"executed_lanes", c.executed_lanes},
+                         {"steps", c.steps},
+                         {"seconds", statistics.seconds},
+                         {"cpu_seconds", statistics.cpu_seconds},
+                         {"peak_memory_bytes", statistics.peak_memory_bytes},
+                         {"phases", phases_json(statistics)}};
     if (!statistics.settings_mark.empty()) json["settings_mark"] = statistics.settings_mark;
     if (statistics.passes) json.update(passes_json(*statistics.passes));
-    // A scene's file name need not be UTF-8.
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return report::text_of(json);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

@@ -8,7 +8,7 @@
 #include "src/render/progressive.h"
 #include "src/render/render.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 // Of a render in passes.
 struct PassStatistics {
@@ -41,4 +41,4 @@ std::string summary(const RunStatistics& statistics);
 // The --stats file.
 std::string statistics_json(const RunStatistics& statistics);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

@@ -6,7 +6,7 @@
 
 #include "src/scene/printer.h"
 
-namespace strata::tools {
+namespace strata::tools::job {
 
 std::string settings_mark(const scene::Scene& scene, const film::Rect& window, const std::string& tracer) {
     scene::Scene costly = scene;
@@ -19,4 +19,4 @@ std::string settings_mark(const scene::Scene& scene, const film::Rect& window, c
     return fmt::format("{:016x}", hash);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::job

@@ -19,13 +19,13 @@
 #include "src/scene/key_text.h"
 #include "src/scene/typed_number.h"
 #include "src/scene/validate.h"
-#include "tools/cli/commands.h"
+#include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/scene_argument.h"
 #include "tools/cli/standard_output.h"
 #include "tools/cli/stream_input.h"
 
-namespace strata::tools {
+namespace strata::tools::probe {
 
 namespace {
 
@@ -54,8 +54,9 @@ std::optional<std::vector<double>> numbers_of(const std::string& line) {
 // Other lines, but for empty ones, are errors, as is one that `use` throws BadLine for.
 template <class Use>
 void each_line(std::size_t least, std::size_t most, const char* allowed, const Use& use) {
-    if (standard_input_is_read()) {
-        throw UsageError("-: the scene came from standard input, where the points are to come from; allowed: a file");
+    if (cli::standard_input_is_read()) {
+        throw cli::UsageError(
+            "-: the scene came from standard input, where the points are to come from; allowed: a file");
     }
     std::string line;
     for (std::size_t row = 1; std::getline(std::cin, line); ++row) {
@@ -65,9 +66,9 @@ void each_line(std::size_t least, std::size_t most, const char* allowed, const U
             if (!numbers || numbers->size() < least || numbers->size() > most) throw BadLine{allowed};
             use(*numbers);
         } catch (const BadLine& bad) {
-            throw UsageError(fmt::format("stdin:{}: '{}', allowed: {}", row, scene::excerpt(line), bad.reason));
+            throw cli::UsageError(fmt::format("stdin:{}: '{}', allowed: {}", row, scene::excerpt(line), bad.reason));
         }
-        if (!flush_out()) return;
+        if (!cli::flush_out()) return;
     }
     if (std::ferror(stdin) != 0) throw std::runtime_error("cannot read standard input");
 }
@@ -90,17 +91,18 @@ glm::dmat3 orientation_at(const trace::Placement& placement, double t) {
     throw BadLine{"a time at which the surface's turns can be counted in double"};
 }
 
-scene::Scene surface_scene(const SceneArgument& argument, const char* what) {
+scene::Scene surface_scene(const cli::SceneArgument& argument, const char* what) {
     scene::Scene scene = argument.load().scene;
     if (scene.image != scene::ImageKind::surface) {
-        throw UsageError(fmt::format("probe {}: this scene has no surface (its key image is not \"surface\")", what));
+        throw cli::UsageError(
+            fmt::format("probe {}: this scene has no surface (its key image is not \"surface\")", what));
     }
     return scene;
 }
 
 double mid_shutter(const scene::Scene& scene) { return estimate::estimator_settings(scene).shutter.middle_s(); }
 
-void probe_field(const SceneArgument& argument) {
+void probe_field(const cli::SceneArgument& argument) {
     const scene::Scene scene = surface_scene(argument, "field");
     const trace::Field field(scene.surface);
     const trace::Placement placement(scene.surface);
@@ -114,8 +116,8 @@ void probe_field(const SceneArgument& argument) {
         for (std::size_t k = 0; k < field.octaves().size(); ++k) {
             octaves += fmt::format("{}{}", k ? "," : "", number(field.octave(k, x, shift)));
         }
-        print_out(fmt::format("{{\"f\":{},\"gradient\":{},\"octaves\":[{}]}}\n", number(field.value(x, shift)),
-                              vector(orientation * field.gradient(x, shift) / placement.scale()), octaves));
+        cli::print_out(fmt::format("{{\"f\":{},\"gradient\":{},\"octaves\":[{}]}}\n", number(field.value(x, shift)),
+                                   vector(orientation * field.gradient(x, shift) / placement.scale()), octaves));
     });
 }
 
@@ -136,7 +138,7 @@ void print_ray(const integrate::SurfaceImage& image, const trace::Ray& world, co
     }
     const bool is_hit = hit.state == trace::HitState::hit;
     const char* verdict = hit.state == trace::HitState::unresolved ? "null" : is_hit ? "true" : "false";
-    print_out(
+    cli::print_out(
         fmt::format("{{\"origin\":{},\"direction\":{},\"hit\":{},\"t\":{},\"position\":{},\"normal\":{},\"steps\":{},"
                     "\"noise_evaluations\":{}}}\n",
                     vector(world.origin), vector(world.direction), verdict, distance, position, normal, hit.steps,
@@ -144,7 +146,7 @@ void print_ray(const integrate::SurfaceImage& image, const trace::Ray& world, co
 }
 
 struct RayRequest {
-    SceneArgument scene;
+    cli::SceneArgument scene;
     std::string pixel, sample, tracer = "fast", simd;
 };
 
@@ -158,12 +160,12 @@ glm::dvec3 near_unit_length(const glm::dvec3& direction) {
 }
 
 void probe_pixel_ray(const RayRequest& request, const scene::Scene& scene, const integrate::SurfaceImage& image) {
-    const glm::ivec2 pixel = parse_pixel(request.pixel, scene.film);
+    const glm::ivec2 pixel = cli::parse_pixel(request.pixel, scene.film);
     double u = 0.0, v = 0.0, t = mid_shutter(scene);
     if (!request.sample.empty()) {
         const auto samples = estimate::Estimator(estimate::estimator_settings(scene)).probe_samples(pixel.x, pixel.y);
         const int last = static_cast<int>(samples.size()) - 1;
-        const int index = parse_integer("--sample", request.sample, 0, last);
+        const int index = cli::parse_integer("--sample", request.sample, 0, last);
         const estimate::ProbeSample& chosen = samples[static_cast<std::size_t>(index)];
         u = chosen.u;
         v = chosen.v;
@@ -175,11 +177,11 @@ void probe_pixel_ray(const RayRequest& request, const scene::Scene& scene, const
 }
 
 void probe_ray(const RayRequest& request) {
-    if (!request.simd.empty()) use_simd_target(request.simd);
+    if (!request.simd.empty()) cli::use_simd_target(request.simd);
     const scene::Scene scene = surface_scene(request.scene, "ray");
-    const integrate::SurfaceImage image(scene, parse_tracer(request.tracer));
+    const integrate::SurfaceImage image(scene, cli::parse_tracer(request.tracer));
     if (!request.pixel.empty()) return probe_pixel_ray(request, scene, image);
-    if (!request.sample.empty()) throw UsageError("--sample: allowed: with --pixel only");
+    if (!request.sample.empty()) throw cli::UsageError("--sample: allowed: with --pixel only");
     each_line(6, 7, "ox oy oz dx dy dz [t], a direction other than zero", [&](const std::vector<double>& in) {
         const glm::dvec3 origin(in[0], in[1], in[2]);
         const double t = in.size() > 6 ? in[6] : mid_shutter(scene);
@@ -216,7 +218,7 @@ void probe_bspline(int m) {
                 paper_iterations = fmt::format("{}", paper.iterations);
             }
         }
-        print_out(
+        cli::print_out(
             fmt::format("{{\"y\":{},\"x\":{},\"cdf\":{},\"pdf\":{},\"iterations\":{},\"bulk_x\":{},\"paper_x\":{},"
                         "\"paper_iterations\":{}}}\n",
                         number(y), number(exact.x), number(filter::bspline_cdf(m, exact.x)),
@@ -225,25 +227,26 @@ void probe_bspline(int m) {
     });
 }
 
-void probe_samples(const SceneArgument& argument, const std::string& pixel_text) {
+void probe_samples(const cli::SceneArgument& argument, const std::string& pixel_text) {
     const scene::Scene scene = argument.load().scene;
-    const glm::ivec2 pixel = parse_pixel(pixel_text, scene.film);
+    const glm::ivec2 pixel = cli::parse_pixel(pixel_text, scene.film);
     for (const auto& s : estimate::Estimator(estimate::estimator_settings(scene)).probe_samples(pixel.x, pixel.y)) {
-        print_out(fmt::format("{{\"u\":{},\"v\":{},\"time\":{},\"weight\":{}}}\n", number(s.u), number(s.v),
-                              number(s.time_s), number(s.weight)));
+        cli::print_out(fmt::format("{{\"u\":{},\"v\":{},\"time\":{},\"weight\":{}}}\n", number(s.u), number(s.v),
+                                   number(s.time_s), number(s.weight)));
     }
 }
 
 }  // namespace
 
-void add_probe_command(Command& program, int&) {
-    Command* probe = program.add_subcommand("probe", "Numbers as JSON lines: the field, rays, the filter, the samples");
+void add_command(cli::Command& program, int&) {
+    cli::Command* probe =
+        program.add_subcommand("probe", "Numbers as JSON lines: the field, rays, the filter, the samples");
     probe->require_subcommand();
 
-    Command* field = probe->add_subcommand(
+    cli::Command* field = probe->add_subcommand(
         "field",
         "Reads `x y z [t]` lines; prints f, its gradient and each octave's contribution: f = base - sum of octaves");
-    auto field_scene = std::make_shared<SceneArgument>();
+    auto field_scene = std::make_shared<cli::SceneArgument>();
     field_scene->add_to(*field);
     field->footer(
         "f is in surface units, in double from the reference path, > 0 outside, before the intersection with a "
@@ -251,7 +254,8 @@ void add_probe_command(Command& program, int&) {
         "ball or box. The gradient is that of f by world position. Without t: the middle of the frame's shutter.");
     field->callback([field_scene] { probe_field(*field_scene); });
 
-    Command* ray = probe->add_subcommand("ray", "Traces rays of the camera, or `ox oy oz dx dy dz [t]` lines of stdin");
+    cli::Command* ray =
+        probe->add_subcommand("ray", "Traces rays of the camera, or `ox oy oz dx dy dz [t]` lines of stdin");
     auto ray_request = std::make_shared<RayRequest>();
     ray_request->scene.add_to(*ray);
     ray->add_option("--pixel", ray_request->pixel, "The ray through a pixel's centre at mid-shutter")->type_name("x,y");
@@ -266,7 +270,7 @@ void add_probe_command(Command& program, int&) {
         "not settled within the step limit. noise_evaluations are those of the ray, without the normal's.");
     ray->callback([ray_request] { probe_ray(*ray_request); });
 
-    Command* bspline =
+    cli::Command* bspline =
         probe->add_subcommand("bspline", "Reads a y in [0,1] a line; inverts the B-spline's distribution");
     auto order = std::make_shared<std::string>("4");
     bspline->add_option("-m,--order", *order, "Order of the B-spline, 1 to 100")->capture_default_str()->type_name("M");
@@ -274,10 +278,11 @@ void add_probe_command(Command& program, int&) {
         "x in [0,m]; bulk_x is the renderer's float table; paper_* is plain Newton iteration on the plain recursion, "
         "null\n"
         "for m > 20 and where it does not converge within 1000 iterations.");
-    bspline->callback([order] { probe_bspline(parse_integer("-m", *order, filter::kMinOrder, filter::kMaxOrder)); });
+    bspline->callback(
+        [order] { probe_bspline(cli::parse_integer("-m", *order, filter::kMinOrder, filter::kMaxOrder)); });
 
-    Command* samples = probe->add_subcommand("samples", "Prints every sample with a weight in a pixel");
-    auto samples_scene = std::make_shared<SceneArgument>();
+    cli::Command* samples = probe->add_subcommand("samples", "Prints every sample with a weight in a pixel");
+    auto samples_scene = std::make_shared<cli::SceneArgument>();
     auto pixel = std::make_shared<std::string>();
     samples_scene->add_to(*samples);
     samples->add_option("--pixel", *pixel, "The pixel")->required()->type_name("x,y");
@@ -285,4 +290,4 @@ void add_probe_command(Command& program, int&) {
     samples->callback([samples_scene, pixel] { probe_samples(*samples_scene, *pixel); });
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::probe

@@ -6,7 +6,7 @@
 
 #include "src/integrate/make_image.h"
 #include "src/parallel/cancel.h"
-#include "tools/cli/commands.h"
+#include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/planned_files.h"
 #include "tools/cli/progress_printer.h"
@@ -16,55 +16,57 @@
 #include "tools/job/run_statistics.h"
 #include "tools/job/settings_mark.h"
 
-namespace strata::tools {
+namespace strata::tools::render {
 
 namespace {
 
 // Of one pass the metadata tell no number.
-image::Metadata metadata_of(const Job& job, const render::ProgressiveResult& result) {
-    return final_metadata(job, result.passes, result.render.cancelled);
+image::Metadata metadata_of(const job::Job& job, const strata::render::ProgressiveResult& result) {
+    return job::final_metadata(job, result.passes, result.render.cancelled);
 }
 
-bool finish(PictureOutputs& outputs, const Job& job, const render::ProgressiveResult& result) {
+bool finish(job::PictureOutputs& outputs, const job::Job& job, const strata::render::ProgressiveResult& result) {
     return result.render.cancelled ? outputs.finish_partial(metadata_of(job, result)) : outputs.finish();
 }
 
 struct Rendered {
-    render::ProgressiveResult result;
+    strata::render::ProgressiveResult result;
     bool all_written = true;
 };
 
 // Called between the last ray and the end of the files.
-using TellEnd = std::function<void(const render::ProgressiveResult&)>;
+using TellEnd = std::function<void(const strata::render::ProgressiveResult&)>;
 
 // One pass goes into its files while it is rendered.
-Rendered render_streamed(const Job& job, PictureOutputs& outputs, const render::RenderOptions& options,
-                         parallel::CancelToken& cancel, const TellEnd& tell_end) {
-    const auto image = integrate::make_image(job.loaded.scene, parse_tracer(job.tracer));
+Rendered render_streamed(const job::Job& job, job::PictureOutputs& outputs,
+                         const strata::render::RenderOptions& options, parallel::CancelToken& cancel,
+                         const TellEnd& tell_end) {
+    const auto image = integrate::make_image(job.loaded.scene, cli::parse_tracer(job.tracer));
     const estimate::Estimator estimator(estimate::estimator_settings(job.loaded.scene));
     outputs.begin(job.metadata);
     Rendered rendered;
-    render::ProgressiveResult& result = rendered.result;
-    result.render =
-        render::render_strips(*image, estimator, job.window, options, image::kStripRows, [&](const film::Film& strip) {
-            outputs.write(strip);
-            if (!outputs.any()) cancel.request();  // nothing is left to render for
-        });
+    strata::render::ProgressiveResult& result = rendered.result;
+    result.render = strata::render::render_strips(*image, estimator, job.window, options, image::kStripRows,
+                                                  [&](const film::Film& strip) {
+                                                      outputs.write(strip);
+                                                      if (!outputs.any())
+                                                          cancel.request();  // nothing is left to render for
+                                                  });
     result.passes = result.render.cancelled ? 0 : 1;
-    result.end = result.render.cancelled ? render::PassesEnd::cancelled : render::PassesEnd::passes;
+    result.end = result.render.cancelled ? strata::render::PassesEnd::cancelled : strata::render::PassesEnd::passes;
     tell_end(result);
     rendered.all_written = finish(outputs, job, result);
     return rendered;
 }
 
 // The mean of several passes is known at their end.
-Rendered render_in_passes(const Job& job, PictureOutputs& outputs, const render::RenderOptions& options,
-                          const TellEnd& tell_end) {
-    const auto image = integrate::make_image(job.loaded.scene, parse_tracer(job.tracer));
+Rendered render_in_passes(const job::Job& job, job::PictureOutputs& outputs,
+                          const strata::render::RenderOptions& options, const TellEnd& tell_end) {
+    const auto image = integrate::make_image(job.loaded.scene, cli::parse_tracer(job.tracer));
     Rendered rendered;
-    render::ProgressiveResult& result = rendered.result;
-    result = render::render_progressively(*image, estimate::estimator_settings(job.loaded.scene), job.window, job.goal,
-                                          options);
+    strata::render::ProgressiveResult& result = rendered.result;
+    result = strata::render::render_progressively(*image, estimate::estimator_settings(job.loaded.scene), job.window,
+                                                  job.goal, options);
     tell_end(result);
     outputs.begin_late(metadata_of(job, result));
     outputs.write_whole(result.render.film);
@@ -72,52 +74,52 @@ Rendered render_in_passes(const Job& job, PictureOutputs& outputs, const render:
     return rendered;
 }
 
-void warn_of_unresolved(const Job& job, std::uint64_t rays) {
+void warn_of_unresolved(const job::Job& job, std::uint64_t rays) {
     if (rays == 0 || job.quiet) return;
-    print_error(fmt::format("warning: {} {} not settled within {} steps; drawn in magenta, or as shadow", rays,
-                            rays == 1 ? "ray was" : "rays were", trace::kStepLimit));
+    cli::print_error(fmt::format("warning: {} {} not settled within {} steps; drawn in magenta, or as shadow", rays,
+                                 rays == 1 ? "ray was" : "rays were", trace::kStepLimit));
 }
 
-std::string stopped_line(const Job& job, const render::ProgressiveResult& result) {
+std::string stopped_line(const job::Job& job, const strata::render::ProgressiveResult& result) {
     if (result.passes > 0) return fmt::format("stopped  with {} passes finished\n", result.passes);
     return fmt::format("stopped  with {} of {} pixels finished\n", result.render.finished_pixels,
                        std::int64_t{1} * job.window.width() * job.window.height());
 }
 
-int render_command(const RenderRequest& request) {
+int render_command(const job::RenderRequest& request) {
     static parallel::CancelToken cancel;
     parallel::cancel_on_signals(cancel);
-    const Job job = prepare(request);
-    PictureOutputs outputs(job);
-    PlannedFiles others;
+    const job::Job job = job::prepare(request);
+    job::PictureOutputs outputs(job);
+    cli::PlannedFiles others;
     if (!job.statistics.empty()) others.plan(job.statistics);
-    ProgressPrinter progress(job.quiet);
-    const render::RenderOptions options{.threads = job.threads,
-                                        .tile = job.tile,
-                                        .on_progress = progress.callback(),
-                                        .cancel = &cancel,
-                                        .with_costs = !job.aovs.empty()};
-    const auto tell_end = [&](const render::ProgressiveResult& result) {
+    cli::ProgressPrinter progress(job.quiet);
+    const strata::render::RenderOptions options{.threads = job.threads,
+                                                .tile = job.tile,
+                                                .on_progress = progress.callback(),
+                                                .cancel = &cancel,
+                                                .with_costs = !job.aovs.empty()};
+    const auto tell_end = [&](const strata::render::ProgressiveResult& result) {
         progress.clear();
         warn_of_unresolved(job, result.render.counters.unresolved_rays);
-        if (result.render.cancelled && !job.quiet) print_out(stopped_line(job, result));
+        if (result.render.cancelled && !job.quiet) cli::print_out(stopped_line(job, result));
     };
     Rendered rendered = job.goal.passes > 1 ? render_in_passes(job, outputs, options, tell_end)
                                             : render_streamed(job, outputs, options, cancel, tell_end);
-    RunStatistics statistics = collect(rendered.result, job.goal, job.loaded.name);
-    statistics.settings_mark = settings_mark(job.loaded.scene, job.window, job.tracer);
-    if (!job.statistics.empty()) others.write(job.statistics, statistics_json(statistics));
-    if (!job.quiet) print_out(summary(statistics));
-    if (!rendered.all_written || !others.all_written()) return kExitRuntime;
+    job::RunStatistics statistics = job::collect(rendered.result, job.goal, job.loaded.name);
+    statistics.settings_mark = job::settings_mark(job.loaded.scene, job.window, job.tracer);
+    if (!job.statistics.empty()) others.write(job.statistics, job::statistics_json(statistics));
+    if (!job.quiet) cli::print_out(job::summary(statistics));
+    if (!rendered.all_written || !others.all_written()) return cli::kExitRuntime;
     // A signal that came too late to stop the render is still why the user expects an end.
-    return parallel::cancelling_signal() != 0 ? kExitSignal + parallel::cancelling_signal() : 0;
+    return parallel::cancelling_signal() != 0 ? cli::kExitSignal + parallel::cancelling_signal() : 0;
 }
 
 }  // namespace
 
-void add_render_command(Command& program, int& exit_code) {
-    Command* command = program.add_subcommand("render", "Render a scene to pictures");
-    auto request = std::make_shared<RenderRequest>();
+void add_command(cli::Command& program, int& exit_code) {
+    cli::Command* command = program.add_subcommand("render", "Render a scene to pictures");
+    auto request = std::make_shared<job::RenderRequest>();
     request->scene.add_to(*command);
     command
         ->add_option("-o,--output", request->outputs,
@@ -196,4 +198,4 @@ void add_render_command(Command& program, int& exit_code) {
     command->callback([request, &exit_code] { exit_code = render_command(*request); });
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::render

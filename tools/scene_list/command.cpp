@@ -4,17 +4,17 @@
 #include "src/scene/printer.h"
 #include "src/scene/suggest.h"
 #include "src/scene/toml_reader.h"
-#include "tools/cli/commands.h"
+#include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/standard_output.h"
 
-namespace strata::tools {
+namespace strata::tools::scene_list {
 
 namespace {
 
 void list_scenes() {
     for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
-        print_out(fmt::format("{:<14}{}\n", builtin.name, builtin.title));
+        cli::print_out(fmt::format("{:<14}{}\n", builtin.name, builtin.title));
     }
 }
 
@@ -24,17 +24,17 @@ void print_builtin(const std::string& name) {
         std::vector<std::string> names;
         for (const scene::BuiltinScene& known : scene::builtin_scenes()) names.push_back(known.name);
         const auto near = scene::nearest(name, names);
-        throw UsageError(fmt::format("{}: no built-in scene of this name; `strata scenes` lists them{}", name,
-                                     near ? fmt::format(", did you mean '{}'?", *near) : ""));
+        throw cli::UsageError(fmt::format("{}: no built-in scene of this name; `strata scenes` lists them{}", name,
+                                          near ? fmt::format(", did you mean '{}'?", *near) : ""));
     }
     const scene::Scene scene = scene::read_scene(builtin->text, builtin->name);
-    print_out(scene::print_scene(scene, scene::PrintedKeys::all));
+    cli::print_out(scene::print_scene(scene, scene::PrintedKeys::all));
 }
 
 }  // namespace
 
-void add_scenes_command(Command& program, int&) {
-    Command* command =
+void add_command(cli::Command& program, int&) {
+    cli::Command* command =
         program.add_subcommand("scenes", "List the built-in scenes, or print one with every key explained");
     auto name = std::make_shared<std::string>();
     command->add_option("NAME", *name, "The scene to print as TOML: every key, its default, unit and range");
@@ -42,4 +42,4 @@ void add_scenes_command(Command& program, int&) {
     command->callback([name] { return name->empty() ? list_scenes() : print_builtin(*name); });
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::scene_list

@@ -11,7 +11,7 @@
 #include "src/scene/key_text.h"
 #include "src/scene/suggest.h"
 #include "src/scene/typed_number.h"
-#include "tools/cli/commands.h"
+#include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/planned_files.h"
 #include "tools/cli/scene_argument.h"
@@ -20,7 +20,7 @@
 #include "tools/stability/report.h"
 #include "tools/stability/run.h"
 
-namespace strata::tools {
+namespace strata::tools::stability {
 
 namespace {
 
@@ -33,19 +33,19 @@ struct StabilityRequest {
 
 struct Output {
     fs::path path;
-    std::string (*text)(const std::vector<stability::Row>&, const stability::Heading&);
+    std::string (*text)(const std::vector<Row>&, const Heading&);
 };
 
 std::vector<std::string> parse_groups(const std::string& text) {
-    const std::vector<std::string> known = stability::groups();
+    const std::vector<std::string> known = groups();
     std::vector<std::string> chosen;
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
         const std::string name = text.substr(begin, end - begin);
         if (std::find(known.begin(), known.end(), name) == known.end()) {
             const auto near = scene::nearest(name, known);
-            throw UsageError(fmt::format("--only: '{}' is no group, allowed: {}{}", name, fmt::join(known, ", "),
-                                         near ? fmt::format(", did you mean '{}'?", *near) : ""));
+            throw cli::UsageError(fmt::format("--only: '{}' is no group, allowed: {}{}", name, fmt::join(known, ", "),
+                                              near ? fmt::format(", did you mean '{}'?", *near) : ""));
         }
         chosen.push_back(name);
         begin = end + 1;
@@ -55,11 +55,11 @@ std::vector<std::string> parse_groups(const std::string& text) {
 
 std::uint64_t parse_seed(const std::string& text) {
     if (const auto seed = scene::typed_integer<std::uint64_t>(text)) return *seed;
-    throw UsageError(fmt::format("--seed {}: allowed: an integer from 0 to 2^64 - 1", scene::excerpt(text)));
+    throw cli::UsageError(fmt::format("--seed {}: allowed: an integer from 0 to 2^64 - 1", scene::excerpt(text)));
 }
 
 // The files to write, their folder made and their writing tried, before any work.
-std::vector<Output> outputs_of(const StabilityRequest& request, PlannedFiles& files) {
+std::vector<Output> outputs_of(const StabilityRequest& request, cli::PlannedFiles& files) {
     std::vector<Output> outputs;
     if (!request.folder.empty()) {
         const fs::path folder(request.folder);
@@ -67,47 +67,46 @@ std::vector<Output> outputs_of(const StabilityRequest& request, PlannedFiles& fi
         fs::create_directories(folder, error);
         if (error)
             throw image::ImageError(fmt::format("cannot make folder \"{}\": {}", folder.string(), error.message()));
-        outputs.push_back({folder / "stability.md", stability::markdown_table});
-        outputs.push_back({folder / "stability.json", stability::json_table});
+        outputs.push_back({folder / "stability.md", markdown_table});
+        outputs.push_back({folder / "stability.json", json_table});
     }
-    if (!request.json.empty()) outputs.push_back({request.json, stability::json_table});
+    if (!request.json.empty()) outputs.push_back({request.json, json_table});
     for (const Output& output : outputs) files.plan(output.path);
-    keep_output_for(request.json);
+    cli::keep_output_for(request.json);
     return outputs;
 }
 
 int stability_command(const StabilityRequest& request) {
     static parallel::CancelToken cancel;
     parallel::cancel_on_signals(cancel);
-    const stability::Settings settings{request.fast, parse_seed(request.seed), &cancel};
-    const int threads = parse_integer("--threads", request.threads, 0, 1024);
-    const std::vector<stability::Case> cases = stability::cases_of(parse_groups(request.groups));
-    PlannedFiles files;
+    const Settings settings{request.fast, parse_seed(request.seed), &cancel};
+    const int threads = cli::parse_integer("--threads", request.threads, 0, 1024);
+    const std::vector<Case> cases = cases_of(parse_groups(request.groups));
+    cli::PlannedFiles files;
     const std::vector<Output> outputs = outputs_of(request, files);
-    const stability::Heading heading{fmt::format("{}", fmt::join(noise::simd_targets(), ", ")), settings.seed,
-                                     settings.fast};
-    StatusLine line;
-    const std::vector<stability::Row> rows = stability::run_cases(
-        cases, settings, threads, [&](std::size_t done, std::size_t total, const stability::Case& next) {
+    const Heading heading{fmt::format("{}", fmt::join(noise::simd_targets(), ", ")), settings.seed, settings.fast};
+    cli::StatusLine line;
+    const std::vector<Row> rows =
+        run_cases(cases, settings, threads, [&](std::size_t done, std::size_t total, const Case& next) {
             if (!request.quiet) line.show(fmt::format("{}/{}  {}: {}", done, total, next.group, next.name));
         });
     line.clear();
-    if (!request.quiet || stability::failures(rows) > 0) print_out(stability::text_table(rows));
+    if (!request.quiet || failures(rows) > 0) cli::print_out(text_table(rows));
     if (cancel.requested()) {
-        print_error("interrupted: these are the cases that were finished; no file was written");
-        return kExitSignal + parallel::cancelling_signal();
+        cli::print_error("interrupted: these are the cases that were finished; no file was written");
+        return cli::kExitSignal + parallel::cancelling_signal();
     }
     for (const Output& output : outputs) {
         const bool written = files.write(output.path, output.text(rows, heading));
-        if (written && !request.quiet) print_out(fmt::format("wrote {}\n", output.path.string()));
+        if (written && !request.quiet) cli::print_out(fmt::format("wrote {}\n", output.path.string()));
     }
-    return stability::failures(rows) > 0 || !files.all_written() ? kExitRuntime : 0;
+    return failures(rows) > 0 || !files.all_written() ? cli::kExitRuntime : 0;
 }
 
 }  // namespace
 
-void add_stability_command(Command& program, int& exit_code) {
-    Command* command =
+void add_command(cli::Command& program, int& exit_code) {
+    cli::Command* command =
         program.add_subcommand("stability", "Check the arithmetic on stiff and extreme cases against derived bounds");
     auto request = std::make_shared<StabilityRequest>();
     command->add_option("-o,--output", request->folder, "Folder to write stability.md and stability.json to")
@@ -116,7 +115,7 @@ void add_stability_command(Command& program, int& exit_code) {
         ->type_name("FILE");
     command
         ->add_option("--only", request->groups,
-                     fmt::format("Only these groups, separated by commas: {}", fmt::join(stability::groups(), ", ")))
+                     fmt::format("Only these groups, separated by commas: {}", fmt::join(groups(), ", ")))
         ->type_name("GROUP,...");
     command->add_flag("--fast", request->fast, "Fewer inputs of every case: a few seconds");
     command->add_option("--seed", request->seed, "Of the random inputs; the table is the same for the same seed")
@@ -133,4 +132,4 @@ void add_stability_command(Command& program, int& exit_code) {
     command->callback([request, &exit_code] { exit_code = stability_command(*request); });
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::stability

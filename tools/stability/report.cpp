@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "tools/report/json.h"
 
 namespace strata::tools::stability {
 
@@ -81,24 +81,23 @@ std::string markdown_table(const std::vector<Row>& rows, const Heading& heading)
 }
 
 std::string json_table(const std::vector<Row>& rows, const Heading& heading) {
-    nlohmann::ordered_json json = {{"version", STRATA_VERSION},
-                                   {"simd_targets", heading.simd_targets},
-                                   {"seed", heading.seed},
-                                   {"fast", heading.fast},
-                                   {"rows", nlohmann::ordered_json::array()}};
+    report::Json json = {{"version", STRATA_VERSION},
+                         {"simd_targets", heading.simd_targets},
+                         {"seed", heading.seed},
+                         {"fast", heading.fast},
+                         {"rows", report::Json::array()}};
     for (const Row& row : rows) {
         const bool check = row.kind == Kind::check;
         json["rows"].push_back({{"group", row.group},
                                 {"case", row.name},
                                 {"kind", check ? "check" : "information"},
-                                {"measured", std::isfinite(row.measured) ? nlohmann::ordered_json(row.measured)
-                                                                         : nlohmann::ordered_json(nullptr)},
-                                {"bound", check ? nlohmann::ordered_json(row.bound) : nlohmann::ordered_json(nullptr)},
+                                {"measured", report::number(row.measured)},
+                                {"bound", report::number(row.bound, check)},
                                 {"unit", row.unit},
                                 {"pass", row.pass()},
                                 {"detail", row.detail}});
     }
-    return json.dump(2) + "\n";
+    return report::text_of(json);
 }
 
 }  // namespace strata::tools::stability

@@ -6,31 +6,31 @@
 #include "src/image/compare.h"
 #include "src/image/encode.h"
 #include "src/image/image_error.h"
+#include "src/image/picture_metadata.h"
 #include "src/parallel/cancel.h"
-#include "tools/cli/commands.h"
+#include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/planned_files.h"
 #include "tools/cli/progress_printer.h"
 #include "tools/cli/standard_output.h"
 #include "tools/job/batch_progress.h"
-#include "tools/job/picture_metadata.h"
 #include "tools/job/render_picture.h"
 #include "tools/strip/job.h"
 #include "tools/strip/sheet.h"
 
-namespace strata::tools {
+namespace strata::tools::strip {
 
 namespace {
 
 constexpr const char* kTracer = "fast";
 
-void write_part(PlannedFiles& files, const StripJob& job, const StripSource& source,
+void write_part(cli::PlannedFiles& files, const StripJob& job, const StripSource& source,
                 const std::filesystem::path& path) {
     image::WriteOptions options{.exr_format = image::ExrFormat::floating};
     image::Metadata metadata;
     if (source.scene && source.file.empty()) {
-        metadata = picture_metadata(*source.scene, job.window, kTracer, "float");
-        options.frames_per_second = frame_rate(*source.scene);
+        metadata = image::picture_metadata(*source.scene, job.window, kTracer, "float");
+        options.frames_per_second = image::frame_rate(*source.scene);
     } else {
         metadata.set("strata:part_of", source.name);
         options.keeps_not_finite = true;
@@ -40,7 +40,7 @@ void write_part(PlannedFiles& files, const StripJob& job, const StripSource& sou
 
 class StripRenderer {
   public:
-    StripRenderer(StripJob& job, PlannedFiles& files, const parallel::CancelToken& cancel)
+    StripRenderer(StripJob& job, cli::PlannedFiles& files, const parallel::CancelToken& cancel)
         : job_(job),
           files_(files),
           cancel_(cancel),
@@ -59,17 +59,18 @@ class StripRenderer {
     static double total_rays(const StripJob& job) {
         double total = 0;
         for (const StripSource& column : job.columns)
-            if (column.file.empty()) total += expected_rays(*column.scene, job.window);
-        if (job.reference && job.reference->file.empty()) total += expected_rays(*job.reference->scene, job.window);
+            if (column.file.empty()) total += job::expected_rays(*column.scene, job.window);
+        if (job.reference && job.reference->file.empty())
+            total += job::expected_rays(*job.reference->scene, job.window);
         return total;
     }
 
     bool complete(StripSource& source, const std::filesystem::path& part) {
         if (source.file.empty()) {
-            const double weight = expected_rays(*source.scene, job_.window);
-            RenderedPicture rendered =
-                render_picture(*source.scene, job_.window, parse_tracer(kTracer),
-                               {.threads = job_.threads, .on_progress = progress_.next(weight), .cancel = &cancel_});
+            const double weight = job::expected_rays(*source.scene, job_.window);
+            job::RenderedPicture rendered = job::render_picture(
+                *source.scene, job_.window, cli::parse_tracer(kTracer),
+                {.threads = job_.threads, .on_progress = progress_.next(weight), .cancel = &cancel_});
             printer_.clear();
             if (rendered.result.cancelled) return false;
             source.picture = std::move(rendered.picture);
@@ -79,10 +80,10 @@ class StripRenderer {
     }
 
     StripJob& job_;
-    PlannedFiles& files_;
+    cli::PlannedFiles& files_;
     const parallel::CancelToken& cancel_;
-    ProgressPrinter printer_;
-    BatchProgress progress_;
+    cli::ProgressPrinter printer_;
+    job::BatchProgress progress_;
 };
 
 // What the sheet's format does not hold, found on a sheet of black pictures before the first ray.
@@ -101,7 +102,7 @@ void check_sheet(const StripJob& job) {
         image::check_encodable(job.output, {sheet.width, sheet.height, 0, 0, sheet.width, sheet.height},
                                strip_metadata(job), {});
     } catch (const image::ImageError& error) {
-        throw UsageError(error.what());
+        throw cli::UsageError(error.what());
     }
 }
 
@@ -110,20 +111,20 @@ int strip_command(const StripRequest& request) {
     parallel::cancel_on_signals(cancel);
     StripJob job = prepare_strip(request);
     check_sheet(job);
-    PlannedFiles files;
+    cli::PlannedFiles files;
     for (const std::filesystem::path& path : strip_files(job)) files.plan(path);
     if (!StripRenderer(job, files, cancel).run()) {
-        if (!job.quiet) print_out("stopped  before the strip was complete; parts that were finished are kept\n");
-        return kExitSignal + parallel::cancelling_signal();
+        if (!job.quiet) cli::print_out("stopped  before the strip was complete; parts that were finished are kept\n");
+        return cli::kExitSignal + parallel::cancelling_signal();
     }
     const bool is_drawn = files.write_made(
         job.output, [&] { return image::encode_canvas(job.output, draw_strip(job), strip_metadata(job)); });
-    if (is_drawn && !job.quiet) print_out(fmt::format("wrote    {}\n", job.output.string()));
-    if (!files.all_written()) return kExitRuntime;
-    return parallel::cancelling_signal() != 0 ? kExitSignal + parallel::cancelling_signal() : 0;
+    if (is_drawn && !job.quiet) cli::print_out(fmt::format("wrote    {}\n", job.output.string()));
+    if (!files.all_written()) return cli::kExitRuntime;
+    return parallel::cancelling_signal() != 0 ? cli::kExitSignal + parallel::cancelling_signal() : 0;
 }
 
-void add_look_options(Command& command, StripRequest& request) {
+void add_look_options(cli::Command& command, StripRequest& request) {
     command.add_option("--crop", request.crop, "Show pixels [x0,x1) x [y0,y1) of the frame alone, y down")
         ->type_name("x0,y0,x1,y1");
     command.add_option("--zoom", request.zoom, "Show each pixel as n x n, 1 to 64; default: panels near 256 px wide")
@@ -137,8 +138,8 @@ void add_look_options(Command& command, StripRequest& request) {
 
 }  // namespace
 
-void add_strip_command(Command& program, int& exit_code) {
-    Command* command = program.add_subcommand("strip", "Show pictures side by side, magnified and compared");
+void add_command(cli::Command& program, int& exit_code) {
+    cli::Command* command = program.add_subcommand("strip", "Show pictures side by side, magnified and compared");
     auto request = std::make_shared<StripRequest>();
     command->add_option("PICTURE", request->pictures, "Pictures to show: EXR, PNG, TIFF or JPEG");
     request->scene.add_to(*command, "--scene");
@@ -186,4 +187,4 @@ void add_strip_command(Command& program, int& exit_code) {
     });
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::strip

@@ -24,7 +24,7 @@
 #include "tools/job/foreign_picture.h"
 #include "tools/job/picture_labels.h"
 
-namespace strata::tools {
+namespace strata::tools::strip {
 
 namespace {
 
@@ -35,9 +35,9 @@ constexpr int kMostZoom = 64;
 constexpr int kPanelWidth = 256;  // that the automatic zoom keeps to
 
 StripSource from_file(const std::string& typed, bool quiet) {
-    const auto spooled = spool_stream(typed);
+    const auto spooled = cli::spool_stream(typed);
     const fs::path path = spooled.value_or(typed);
-    ForeignPicture picture = read_foreign_picture(path, typed, quiet);
+    job::ForeignPicture picture = job::read_foreign_picture(path, typed, quiet);
     return {.name = typed,
             .label = typed == "-" ? "stdin" : fs::path(typed).stem().string(),
             .file = path,
@@ -45,19 +45,19 @@ StripSource from_file(const std::string& typed, bool quiet) {
             .picture = std::move(picture.linear)};
 }
 
-StripSource from_settings(const LoadedScene& loaded, const ColumnSettings& settings, const char* origin) {
+StripSource from_settings(const cli::LoadedScene& loaded, const job::ColumnSettings& settings, const char* origin) {
     return {.name = settings.text,
             .label = settings.label,
             .file = {},
-            .scene = with_settings(loaded.scene, settings, origin),
+            .scene = job::with_settings(loaded.scene, settings, origin),
             .picture = {}};
 }
 
 void require(bool condition, const char* message) {
-    if (!condition) throw UsageError(message);
+    if (!condition) throw cli::UsageError(message);
 }
 
-std::vector<StripSource> find_columns(const StripRequest& request, const std::optional<LoadedScene>& loaded) {
+std::vector<StripSource> find_columns(const StripRequest& request, const std::optional<cli::LoadedScene>& loaded) {
     std::vector<StripSource> columns;
     for (const std::string& path : request.pictures) columns.push_back(from_file(path, request.quiet));
     std::vector<std::optional<scene::Scene>> scenes;
@@ -66,14 +66,14 @@ std::vector<StripSource> find_columns(const StripRequest& request, const std::op
         scenes.push_back(column.scene);
         names.push_back(column.label);
     }
-    const std::vector<std::string> labels = labels_of(scenes, names);
+    const std::vector<std::string> labels = job::labels_of(scenes, names);
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i].label = labels[i];
     if (loaded) {
-        for (const ColumnSettings& settings : parse_columns("--columns", request.columns))
+        for (const job::ColumnSettings& settings : job::parse_columns("--columns", request.columns))
             columns.push_back(from_settings(*loaded, settings, "--columns"));
     }
     if (columns.size() > kMostColumns)
-        throw UsageError(fmt::format("{} pictures: allowed: at most {} in a strip", columns.size(), kMostColumns));
+        throw cli::UsageError(fmt::format("{} pictures: allowed: at most {} in a strip", columns.size(), kMostColumns));
     return columns;
 }
 
@@ -87,13 +87,13 @@ void replace_labels(const std::string& text, std::vector<StripSource>& columns) 
             labels.back() += c;
     }
     if (labels.size() != columns.size())
-        throw UsageError(fmt::format("--labels {}: {} labels for {} pictures, allowed: one each, between ';'",
-                                     scene::excerpt(text), labels.size(), columns.size()));
+        throw cli::UsageError(fmt::format("--labels {}: {} labels for {} pictures, allowed: one each, between ';'",
+                                          scene::excerpt(text), labels.size(), columns.size()));
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i].label = labels[i];
 }
 
 // A column by its number or its words, a file, or settings to be rendered.
-void find_reference(const StripRequest& request, const std::optional<LoadedScene>& loaded, StripJob& job) {
+void find_reference(const StripRequest& request, const std::optional<cli::LoadedScene>& loaded, StripJob& job) {
     const std::string& text = request.reference;
     if (text.empty()) {
         require(!request.difference && !request.rmse,
@@ -102,7 +102,7 @@ void find_reference(const StripRequest& request, const std::optional<LoadedScene
     }
     if (const auto number = scene::typed_integer<int>(text)) {
         if (*number < 1 || *number > static_cast<int>(job.columns.size()))
-            throw UsageError(fmt::format("--reference {}: allowed: column 1 to {}", text, job.columns.size()));
+            throw cli::UsageError(fmt::format("--reference {}: allowed: column 1 to {}", text, job.columns.size()));
         job.reference_column = static_cast<std::size_t>(*number - 1);
         return;
     }
@@ -116,7 +116,7 @@ void find_reference(const StripRequest& request, const std::optional<LoadedScene
     if (!loaded || fs::exists(text, ignored) || fs::path(text).has_extension())
         job.reference = from_file(text, request.quiet);
     else
-        job.reference = from_settings(*loaded, parse_column("--reference", text), "--reference");
+        job.reference = from_settings(*loaded, job::parse_column("--reference", text), "--reference");
 }
 
 struct Extent {
@@ -156,8 +156,8 @@ void require_equal_sizes(const StripSource& first, const StripSource& other, boo
         return has_crop ? fmt::format("{}x{}", e.frame_width, e.frame_height)
                         : fmt::format("{}x{}", e.window.width(), e.window.height());
     };
-    throw UsageError(fmt::format("pictures of different size: {} has {} pixels, {} has {}; allowed: equal sizes",
-                                 first.name, size(a), other.name, size(b)));
+    throw cli::UsageError(fmt::format("pictures of different size: {} has {} pixels, {} has {}; allowed: equal sizes",
+                                      first.name, size(a), other.name, size(b)));
 }
 
 void apply_crop(const StripRequest& request, StripJob& job) {
@@ -175,29 +175,29 @@ void apply_crop(const StripRequest& request, StripJob& job) {
         scene::Film frame;
         frame.width = first.frame_width;
         frame.height = first.frame_height;
-        job.window = parse_crop("--crop", request.crop, frame);
+        job.window = cli::parse_crop("--crop", request.crop, frame);
     }
     const film::Rect& w = job.window;
     for (StripSource* source : sources) {
         if (source->file.empty() || !has_crop) continue;
         const film::Rect has = extent_of(*source).window;
         if (w.x0 < has.x0 || w.y0 < has.y0 || w.x1 > has.x1 || w.y1 > has.y1)
-            throw UsageError(fmt::format("--crop {}: {} holds pixels {},{},{},{} alone", request.crop, source->name,
-                                         has.x0, has.y0, has.x1, has.y1));
+            throw cli::UsageError(fmt::format("--crop {}: {} holds pixels {},{},{},{} alone", request.crop,
+                                              source->name, has.x0, has.y0, has.x1, has.y1));
         source->picture = cut(source->picture, w);
     }
 }
 
 int choose_zoom(const StripRequest& request, const film::Rect& window) {
     if (request.zoom.empty()) return std::clamp(kPanelWidth / window.width(), 1, 16);
-    return parse_integer("--zoom", request.zoom, 1, kMostZoom);
+    return cli::parse_integer("--zoom", request.zoom, 1, kMostZoom);
 }
 
 std::optional<double> parse_top(const std::string& text) {
     if (text.empty()) return std::nullopt;
     const auto value = scene::typed_number(text);
     if (!value || !(*value > 0))
-        throw UsageError(fmt::format("--difference-top {}: allowed: a radiance above 0", scene::excerpt(text)));
+        throw cli::UsageError(fmt::format("--difference-top {}: allowed: a radiance above 0", scene::excerpt(text)));
     return value;
 }
 
@@ -219,8 +219,8 @@ void check_part(const StripJob& job, const StripSource& source, const fs::path& 
     try {
         image::check_encodable(path, source.file.empty() ? rendered : source.picture.shape(), {}, {});
     } catch (const image::ImageError& error) {
-        throw UsageError(fmt::format("--parts: {}: {}; allowed: a --crop inside the frame, or no --parts", source.name,
-                                     error.what()));
+        throw cli::UsageError(fmt::format("--parts: {}: {}; allowed: a --crop inside the frame, or no --parts",
+                                          source.name, error.what()));
     }
 }
 
@@ -228,7 +228,7 @@ void check_outputs(const StripJob& job) {
     try {
         image::check_canvas_format(job.output);
     } catch (const image::ImageError& error) {
-        throw UsageError(error.what());
+        throw cli::UsageError(error.what());
     }
     image::check_writable(job.output);
     if (!job.parts) return;
@@ -245,7 +245,7 @@ void check_inputs_stay(const StripJob& job) {
     for (const fs::path& input : inputs) {
         for (const fs::path& output : outputs) {
             if (!input.empty() && image::is_one_file(input, output))
-                throw UsageError(fmt::format("{}: this output is a picture of the strip", output.string()));
+                throw cli::UsageError(fmt::format("{}: this output is a picture of the strip", output.string()));
         }
     }
 }
@@ -271,9 +271,9 @@ StripJob prepare_strip(const StripRequest& request) {
     require(request.has_scene == !request.columns.empty(), "--scene and --columns go together");
     StripJob job;
     job.quiet = request.quiet;
-    job.threads = parse_integer("--threads", request.threads, 0, 1024);
-    if (!request.simd.empty()) use_simd_target(request.simd);
-    std::optional<LoadedScene> loaded;
+    job.threads = cli::parse_integer("--threads", request.threads, 0, 1024);
+    if (!request.simd.empty()) cli::use_simd_target(request.simd);
+    std::optional<cli::LoadedScene> loaded;
     if (request.has_scene) loaded = request.scene.load();
     job.columns = find_columns(request, loaded);
     replace_labels(request.labels, job.columns);
@@ -293,11 +293,11 @@ StripJob prepare_strip(const StripRequest& request) {
     job.output = request.output.empty() ? fs::path("strip.png") : fs::path(request.output);
     const auto stream = image::stream_target(job.output);
     if (stream && !stream->format) job.output = "png:" + job.output.string();
-    keep_output_for(job.output);
+    cli::keep_output_for(job.output);
     check_outputs(job);
     check_inputs_stay(job);
     image::check_fonts();
     return job;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::strip

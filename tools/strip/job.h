@@ -12,11 +12,11 @@
 #include "src/scene/scene.h"
 #include "tools/cli/scene_argument.h"
 
-namespace strata::tools {
+namespace strata::tools::strip {
 
 // The options as typed; empty where there is none.
 struct StripRequest {
-    SceneArgument scene;
+    cli::SceneArgument scene;
     bool has_scene = false;
     std::vector<std::string> pictures;
     std::string columns, crop, zoom, labels, reference, top, output, simd, threads = "0";
@@ -58,4 +58,4 @@ std::filesystem::path part_path(const StripJob& job, std::optional<std::size_t> 
 // All that is written: the strip, then its parts, if they are asked for.
 std::vector<std::filesystem::path> strip_files(const StripJob& job);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::strip

@@ -11,7 +11,7 @@
 #include "src/image/sheet.h"
 #include "src/scene/enum_names.h"
 
-namespace strata::tools {
+namespace strata::tools::strip {
 
 namespace {
 
@@ -106,4 +106,4 @@ image::Metadata strip_metadata(const StripJob& job) {
     return metadata;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::strip

@@ -5,11 +5,11 @@
 #include "src/image/metadata.h"
 #include "tools/strip/job.h"
 
-namespace strata::tools {
+namespace strata::tools::strip {
 
 image::Canvas draw_strip(const StripJob& job);
 
 // How the strip was made: settings, crop, zoom, reference. Nothing that differs between equal strips.
 image::Metadata strip_metadata(const StripJob& job);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::strip

@@ -14,7 +14,7 @@
 #include "tools/cli/errors.h"
 #include "tools/job/column_settings.h"
 
-namespace strata::tools {
+namespace strata::tools::sweep {
 
 namespace {
 
@@ -37,17 +37,18 @@ std::string canonical(const std::string& value) {
 }
 
 SweepAxis make_axis(const std::string& origin, std::string_view key, std::string_view values) {
-    SweepAxis axis{.origin = origin, .key = full_key_name(origin, key), .values = split_list(values)};
+    SweepAxis axis{.origin = origin, .key = job::full_key_name(origin, key), .values = split_list(values)};
     if (std::ranges::find(axis.values, "") != axis.values.end())
-        throw UsageError(fmt::format("{} '{}': an empty value, allowed: values between commas, such as 1,2,10", origin,
-                                     scene::excerpt(values)));
+        throw cli::UsageError(fmt::format("{} '{}': an empty value, allowed: values between commas, such as 1,2,10",
+                                          origin, scene::excerpt(values)));
     std::set<std::string> seen;
     for (const std::string& value : axis.values) {
         if (!seen.insert(canonical(value)).second)
-            throw UsageError(fmt::format("{}: the value {} stands twice", origin, scene::excerpt(value)));
+            throw cli::UsageError(fmt::format("{}: the value {} stands twice", origin, scene::excerpt(value)));
     }
     if (axis.values.size() > kMostValues)
-        throw UsageError(fmt::format("{}: {} values, allowed: at most {}", origin, axis.values.size(), kMostValues));
+        throw cli::UsageError(
+            fmt::format("{}: {} values, allowed: at most {}", origin, axis.values.size(), kMostValues));
     return axis;
 }
 
@@ -55,8 +56,8 @@ SweepAxis make_axis(const std::string& origin, std::string_view key, std::string
 SweepAxis make_axis(const AxisOption& option) {
     const auto equals = option.text.find('=');
     if (equals == std::string::npos || equals == 0)
-        throw UsageError(fmt::format("{} {}: allowed: KEY=VALUE,VALUE,..., such as octaves=4,8", option.origin,
-                                     scene::excerpt(option.text)));
+        throw cli::UsageError(fmt::format("{} {}: allowed: KEY=VALUE,VALUE,..., such as octaves=4,8", option.origin,
+                                          scene::excerpt(option.text)));
     const std::string_view text = option.text;
     return make_axis(option.origin, text.substr(0, equals), text.substr(equals + 1));
 }
@@ -72,7 +73,7 @@ std::vector<SweepAxis> axes_without_place(const AxisRequest& request) {
 }
 
 std::optional<SweepAxis> axis_with_place(const std::vector<AxisOption>& options) {
-    if (options.size() > 1) throw UsageError(fmt::format("{}: given twice, allowed: once", options[1].origin));
+    if (options.size() > 1) throw cli::UsageError(fmt::format("{}: given twice, allowed: once", options[1].origin));
     if (options.empty()) return std::nullopt;
     return make_axis(options.front());
 }
@@ -85,8 +86,8 @@ void check_all_different(const SweepAxes& axes, const std::vector<SweepAxis>& ot
     for (std::size_t i = 0; i < all.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
             if (all[i]->key == all[k]->key)
-                throw UsageError(fmt::format("{} and {} both vary {}, allowed: one of them", all[k]->origin,
-                                             all[i]->origin, all[i]->key));
+                throw cli::UsageError(fmt::format("{} and {} both vary {}, allowed: one of them", all[k]->origin,
+                                                  all[i]->origin, all[i]->key));
         }
     }
 }
@@ -100,7 +101,7 @@ void place(SweepAxes& axes, std::vector<SweepAxis> varying) {
     for (SweepAxis& axis : varying) {
         std::optional<SweepAxis>& place = axes.columns ? axes.rows : axes.columns;
         if (place)
-            throw UsageError(
+            throw cli::UsageError(
                 fmt::format("{}: a third axis, allowed: two of several values, others of one value", axis.origin));
         place = std::move(axis);
     }
@@ -159,13 +160,13 @@ SweepAxes parse_axes(const AxisRequest& request) {
         axes.fixed.erase(axes.fixed.begin());
     }
     if (!axes.rows && !axes.columns)
-        throw UsageError(
+        throw cli::UsageError(
             "nothing to vary: give one or two of --N, --m, --estimator, --time-order, --seed, --axis, "
             "--rows, --columns");
     const std::size_t cells =
         (axes.rows ? axes.rows->values.size() : 1) * (axes.columns ? axes.columns->values.size() : 1);
     if (cells > kMostCells)
-        throw UsageError(fmt::format("{} pictures: allowed: at most {} in a sweep", cells, kMostCells));
+        throw cli::UsageError(fmt::format("{} pictures: allowed: at most {} in a sweep", cells, kMostCells));
     return axes;
 }
 
@@ -197,4 +198,4 @@ std::string value_label(const SweepAxis& axis, std::size_t value) {
     return fmt::format("{} = {}", axis_name(axis), text);
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::sweep

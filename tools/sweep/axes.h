@@ -8,7 +8,7 @@
 
 #include "src/scene/scene.h"
 
-namespace strata::tools {
+namespace strata::tools::sweep {
 
 struct SweepAxis {
     std::string origin;               // the option it was given to, for messages
@@ -53,4 +53,4 @@ std::string file_part(const SweepAxis& axis, std::size_t value);
 // "N = 2".
 std::string value_label(const SweepAxis& axis, std::size_t value);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::sweep

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "src/parallel/cancel.h"
-#include "tools/cli/commands.h"
+#include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/standard_output.h"
 #include "tools/sweep/job.h"
@@ -14,7 +14,7 @@
 #include "tools/sweep/sheet.h"
 #include "tools/sweep/tables.h"
 
-namespace strata::tools {
+namespace strata::tools::sweep {
 
 namespace {
 
@@ -47,15 +47,15 @@ void report(const SweepJob& job, const SweepResults& results) {
     const std::string folder = job.folder.string();
     text += fmt::format("wrote    {}: {}, {}, {} and {} pictures\n", folder, kSheetFile, kCsvFile, kJsonFile,
                         job.cells.size());
-    print_out(text);
+    cli::print_out(text);
 }
 
 SweepLedger ledger_of(const SweepJob& job) {
     const std::filesystem::path file = job.folder / kJsonFile;
     const std::optional<SweepLedger> ledger = read_ledger(file);
     if (!ledger && !job.quiet) {
-        print_out(fmt::format("damaged  {}: it cannot be read; the times of pictures that are kept are lost\n",
-                              file.string()));
+        cli::print_out(fmt::format("damaged  {}: it cannot be read; the times of pictures that are kept are lost\n",
+                                   file.string()));
     }
     return ledger.value_or(SweepLedger{});
 }
@@ -65,33 +65,33 @@ int sweep_command(const SweepRequest& request) {
     parallel::cancel_on_signals(cancel);
     const SweepJob job = prepare_sweep(request);
     SweepLedger ledger = ledger_of(job);
-    PlannedFiles files;
+    cli::PlannedFiles files;
     for (const char* file : {kSheetFile, kCsvFile}) files.plan(job.folder / file);
     const SweepOutcome outcome = render_sweep(files, job, ledger, cancel);
     if (outcome.unresolved_rays > 0 && !job.quiet)
-        print_error(
+        cli::print_error(
             fmt::format("warning: {} rays were not settled; drawn in magenta, or as shadow", outcome.unresolved_rays));
     if (outcome.cancelled) {
         if (!job.quiet)
-            print_out(fmt::format("stopped  with {} of {} pictures; the same command goes on from there\n",
-                                  outcome.kept + outcome.rendered, job.cells.size() + 2 * job.references.size()));
-        return kExitSignal + parallel::cancelling_signal();
+            cli::print_out(fmt::format("stopped  with {} of {} pictures; the same command goes on from there\n",
+                                       outcome.kept + outcome.rendered, job.cells.size() + 2 * job.references.size()));
+        return cli::kExitSignal + parallel::cancelling_signal();
     }
     if (outcome.failed > 0) {
-        print_error(fmt::format("{} of {} pictures are there; the same command goes on from there",
-                                outcome.kept + outcome.rendered, job.cells.size() + 2 * job.references.size()));
-        return kExitRuntime;
+        cli::print_error(fmt::format("{} of {} pictures are there; the same command goes on from there",
+                                     outcome.kept + outcome.rendered, job.cells.size() + 2 * job.references.size()));
+        return cli::kExitRuntime;
     }
     const SweepResults results = evaluate_sweep(files, job);
     write_tables(files, job, ledger, results);
     const std::filesystem::path sheet = job.folder / kSheetFile;
     write_if_changed(files, sheet, image::encode_canvas(sheet, draw_sheet(job, results), sheet_metadata(job)));
     if (!job.quiet && files.all_written()) report(job, results);
-    if (!files.all_written()) return kExitRuntime;
-    return parallel::cancelling_signal() != 0 ? kExitSignal + parallel::cancelling_signal() : 0;
+    if (!files.all_written()) return cli::kExitRuntime;
+    return parallel::cancelling_signal() != 0 ? cli::kExitSignal + parallel::cancelling_signal() : 0;
 }
 
-void add_axis_options(Command& command, AxisTexts& texts) {
+void add_axis_options(cli::Command& command, AxisTexts& texts) {
     const auto add = [&](const char* names, std::optional<std::string>& text, const char* type, const char* meaning) {
         command.add_option(names, text, meaning)->type_name(type);
     };
@@ -109,8 +109,9 @@ void add_axis_options(Command& command, AxisTexts& texts) {
 
 }  // namespace
 
-void add_sweep_command(Command& program, int& exit_code) {
-    Command* command = program.add_subcommand("sweep", "Render a scene over a grid of settings and measure the errors");
+void add_command(cli::Command& program, int& exit_code) {
+    cli::Command* command =
+        program.add_subcommand("sweep", "Render a scene over a grid of settings and measure the errors");
     auto request = std::make_shared<SweepRequest>();
     auto texts = std::make_shared<AxisTexts>();
     static constexpr std::array<std::string_view, 5> kOwn{"sampling.N", "sampling.m", "sampling.estimator",
@@ -157,4 +158,4 @@ void add_sweep_command(Command& program, int& exit_code) {
     });
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::sweep

@@ -9,6 +9,7 @@
 
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
+#include "src/image/picture_metadata.h"
 #include "src/image/text.h"
 #include "src/scene/key_text.h"
 #include "src/scene/override.h"
@@ -16,9 +17,8 @@
 #include "src/scene/validate.h"
 #include "tools/cli/errors.h"
 #include "tools/job/foreign_picture.h"
-#include "tools/job/picture_metadata.h"
 
-namespace strata::tools {
+namespace strata::tools::sweep {
 
 namespace {
 
@@ -38,12 +38,12 @@ SweepPicture make_picture(std::string file, const scene::Scene& scene, const fil
     return {.file = std::move(file),
             .scene = scene,
             .window = window,
-            .metadata = picture_metadata(scene, window, "fast", "float")};
+            .metadata = image::picture_metadata(scene, window, "fast", "float")};
 }
 
 film::Rect window_of(const SweepRequest& request, const scene::Film& film) {
     if (request.crop.empty()) return {0, 0, film.width, film.height};
-    return parse_crop("--crop", request.crop, film);
+    return cli::parse_crop("--crop", request.crop, film);
 }
 
 SweepCell make_cell(const SweepRequest& request, const SweepJob& job, const scene::Scene& base, std::size_t row,
@@ -112,7 +112,7 @@ ReferenceName name_reference(const SweepJob& job, const SweepCell& cell) {
 }
 
 int reference_N(const SweepRequest& request, const SweepJob& job) {
-    if (!request.reference_N.empty()) return parse_integer("--reference-N", request.reference_N, 1, kMostN);
+    if (!request.reference_N.empty()) return cli::parse_integer("--reference-N", request.reference_N, 1, kMostN);
     int largest = 0;
     for (const SweepCell& cell : job.cells) largest = std::max(largest, cell.picture.scene.sampling.N);
     return std::clamp(kReferenceFactor * largest, kLeastReferenceN, kMostN);
@@ -156,13 +156,13 @@ void make_references(const SweepRequest& request, SweepJob& job) {
 }
 
 void read_reference(const SweepRequest& request, SweepJob& job) {
-    job.given_reference = read_foreign_picture(request.reference, request.reference, request.quiet).linear;
+    job.given_reference = job::read_foreign_picture(request.reference, request.reference, request.quiet).linear;
     job.given_reference_name = fs::path(request.reference).filename().string();
     const image::Picture& reference = *job.given_reference;
     for (const SweepCell& cell : job.cells) {
         const film::Rect& w = cell.picture.window;
         if (w.width() != reference.width() || w.height() != reference.height())
-            throw UsageError(fmt::format(
+            throw cli::UsageError(fmt::format(
                 "--reference {}: it has {}x{} pixels, {} is to have {}x{}; allowed: equal "
                 "sizes",
                 request.reference, reference.width(), reference.height(), cell.picture.file, w.width(), w.height()));
@@ -187,8 +187,8 @@ void make_folder(const SweepJob& job) {
 SweepJob prepare_sweep(const SweepRequest& request) {
     SweepJob job;
     job.quiet = request.quiet;
-    job.threads = parse_integer("--threads", request.threads, 0, 1024);
-    if (!request.simd.empty()) use_simd_target(request.simd);
+    job.threads = cli::parse_integer("--threads", request.threads, 0, 1024);
+    if (!request.simd.empty()) cli::use_simd_target(request.simd);
     job.axes = parse_axes(request.axes);
     job.loaded = request.scene.load();
     make_cells(request, job);
@@ -197,11 +197,11 @@ SweepJob prepare_sweep(const SweepRequest& request) {
     else if (request.reference != "none")
         read_reference(request, job);
     if (request.reference != "auto" && !request.reference_N.empty())
-        throw UsageError("--reference-N is for --reference auto");
+        throw cli::UsageError("--reference-N is for --reference auto");
     image::check_fonts();
     job.folder = request.output.empty() ? fs::path(job.loaded.name + "-sweep") : fs::path(request.output);
     make_folder(job);
     return job;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::sweep

@@ -14,11 +14,11 @@
 #include "tools/cli/scene_argument.h"
 #include "tools/sweep/axes.h"
 
-namespace strata::tools {
+namespace strata::tools::sweep {
 
 // The options as typed; empty where there is none.
 struct SweepRequest {
-    SceneArgument scene;
+    cli::SceneArgument scene;
     AxisRequest axes;
     std::string crop, reference = "auto", reference_N, output, simd, threads = "0";
     bool quiet = false;
@@ -47,7 +47,7 @@ struct SweepReference {
 };
 
 struct SweepJob {
-    LoadedScene loaded;
+    cli::LoadedScene loaded;
     SweepAxes axes;
     std::vector<SweepCell> cells;            // row by row
     std::vector<SweepReference> references;  // --reference auto
@@ -70,4 +70,4 @@ inline constexpr const char* kSheetFile = "sweep.png";
 inline constexpr const char* kCsvFile = "sweep.csv";
 inline constexpr const char* kJsonFile = "sweep.json";
 
-}  // namespace strata::tools
+}  // namespace strata::tools::sweep

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-namespace strata::tools {
+namespace strata::tools::sweep {
 
 std::string fingerprint(const image::Metadata& metadata) {
     std::uint64_t hash = 0xcbf29ce484222325;
@@ -64,4 +64,4 @@ std::optional<PictureCost> find_cost(const SweepLedger& ledger, const std::strin
     return found->second;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::sweep

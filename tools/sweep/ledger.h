@@ -11,7 +11,7 @@
 #include "src/image/metadata.h"
 #include "src/render/render.h"
 
-namespace strata::tools {
+namespace strata::tools::sweep {
 
 struct PictureCost {
     std::string fingerprint;  // of the metadata of the picture that it is the cost of
@@ -38,4 +38,4 @@ nlohmann::ordered_json to_json(const SweepLedger& ledger);
 std::optional<PictureCost> find_cost(const SweepLedger& ledger, const std::string& file,
                                      const image::Metadata& metadata);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::sweep

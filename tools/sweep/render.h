@@ -9,7 +9,7 @@
 #include "tools/sweep/job.h"
 #include "tools/sweep/ledger.h"
 
-namespace strata::tools {
+namespace strata::tools::sweep {
 
 struct SweepOutcome {
     std::size_t kept = 0, rendered = 0;
@@ -20,7 +20,7 @@ struct SweepOutcome {
 
 // Each picture is written when it is finished, and its cost with it. Prints what is kept and what is to be done. A
 // picture that cannot be written is told and does not keep the others from being rendered; two in a row end the sweep.
-SweepOutcome render_sweep(PlannedFiles& files, const SweepJob& job, SweepLedger& ledger,
+SweepOutcome render_sweep(cli::PlannedFiles& files, const SweepJob& job, SweepLedger& ledger,
                           const parallel::CancelToken& cancel);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::sweep

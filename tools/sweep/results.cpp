@@ -4,14 +4,14 @@
 #include "src/image/read.h"
 #include "tools/sweep/tables.h"
 
-namespace strata::tools {
+namespace strata::tools::sweep {
 
 namespace {
 
 image::Picture read(const SweepJob& job, const std::string& file) { return image::read_picture(job.folder / file); }
 
 // Writes the mean, too.
-image::Picture mean_of_halves(PlannedFiles& files, const SweepJob& job, const SweepReference& reference,
+image::Picture mean_of_halves(cli::PlannedFiles& files, const SweepJob& job, const SweepReference& reference,
                               double& error) {
     image::Picture mean = read(job, reference.halves[0].file);
     const image::Picture other = read(job, reference.halves[1].file);
@@ -36,7 +36,7 @@ bool SweepResults::is_near_reference(const SweepJob& job, std::size_t cell) cons
     return cells[cell]->rmse < kTrustFactor * reference_errors[job.cells[cell].reference];
 }
 
-SweepResults evaluate_sweep(PlannedFiles& files, const SweepJob& job) {
+SweepResults evaluate_sweep(cli::PlannedFiles& files, const SweepJob& job) {
     SweepResults results;
     results.cells.resize(job.cells.size());
     const auto compare_cells = [&](const image::Picture& reference, std::size_t index) {
@@ -54,4 +54,4 @@ SweepResults evaluate_sweep(PlannedFiles& files, const SweepJob& job) {
     return results;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::sweep

@@ -8,7 +8,7 @@
 #include "tools/cli/planned_files.h"
 #include "tools/sweep/job.h"
 
-namespace strata::tools {
+namespace strata::tools::sweep {
 
 // An error below this many times the reference's own is partly the reference's.
 inline constexpr double kTrustFactor = 3;
@@ -22,6 +22,6 @@ struct SweepResults {
 
 // Reads the pictures back and writes the means of the references' halves. The difference of two independent halves has
 // twice the variance of one of them, their mean half of it: its error is RMSE(a, b) / 2.
-SweepResults evaluate_sweep(PlannedFiles& files, const SweepJob& job);
+SweepResults evaluate_sweep(cli::PlannedFiles& files, const SweepJob& job);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::sweep

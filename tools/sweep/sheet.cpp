@@ -9,7 +9,7 @@
 #include "src/image/sheet.h"
 #include "src/scene/enum_names.h"
 
-namespace strata::tools {
+namespace strata::tools::sweep {
 
 namespace {
 
@@ -143,4 +143,4 @@ image::Metadata sheet_metadata(const SweepJob& job) {
     return metadata;
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::sweep

@@ -6,11 +6,11 @@
 #include "tools/sweep/job.h"
 #include "tools/sweep/results.h"
 
-namespace strata::tools {
+namespace strata::tools::sweep {
 
 // Small pictures are magnified by replication; of large ones each pixel is the mean of n x n, in linear light.
 image::Canvas draw_sheet(const SweepJob& job, const SweepResults& results);
 
 image::Metadata sheet_metadata(const SweepJob& job);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::sweep

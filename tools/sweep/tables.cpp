@@ -5,24 +5,21 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "noise/simd_target.h"
 #include "src/scene/enum_names.h"
+#include "tools/report/csv.h"
+#include "tools/report/json.h"
 
-namespace strata::tools {
+namespace strata::tools::sweep {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using report::csv_cell;
+using report::Json;
 
-void write_text(PlannedFiles& files, const std::filesystem::path& path, const std::string& text) {
+void write_text(cli::PlannedFiles& files, const std::filesystem::path& path, const std::string& text) {
     write_if_changed(files, path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
-}
-
-std::string dump(const Json& json) {
-    // A scene's file name need not be UTF-8.
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 Json axis_json(const std::optional<SweepAxis>& axis) {
@@ -96,13 +93,6 @@ Json sweep_json(const SweepJob& job, const SweepLedger& ledger, const SweepResul
             {"costs", to_json(ledger)}};
 }
 
-std::string csv_text(const std::string& text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted += '"';
-}
-
 std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
 std::string csv_errors(const SweepJob& job, const SweepResults& results, std::size_t cell) {
@@ -120,15 +110,15 @@ std::string csv_errors(const SweepJob& job, const SweepResults& results, std::si
 
 std::string csv(const SweepJob& job, const SweepLedger& ledger, const SweepResults& results) {
     std::string text = "file";
-    for (const auto& [key, value] : job.cells.front().settings) text += fmt::format(",{}", csv_text(key));
+    for (const auto& [key, value] : job.cells.front().settings) text += fmt::format(",{}", csv_cell(key));
     text +=
         ",samples_a_pixel,rays,shadow_rays,noise_evaluations,seconds,cpu_seconds,rmse,rmse_r,rmse_g,rmse_b,"
         "relative_rmse,max_abs,percentile99,reference_own_rmse,near_reference_error\n";
     for (std::size_t i = 0; i < job.cells.size(); ++i) {
         const SweepPicture& picture = job.cells[i].picture;
         const scene::Sampling& sampling = picture.scene.sampling;
-        text += csv_text(picture.file);
-        for (const auto& [key, value] : job.cells[i].settings) text += fmt::format(",{}", csv_text(value));
+        text += csv_cell(picture.file);
+        for (const auto& [key, value] : job.cells[i].settings) text += fmt::format(",{}", csv_cell(value));
         text += fmt::format(",{}", sampling.estimator == scene::EstimatorKind::none ? 1 : sampling.N * sampling.N);
         const auto cost = find_cost(ledger, picture.file, picture.metadata);
         text += cost ? fmt::format(",{},{},{},{},{}", cost->rays, cost->shadow_rays, cost->noise_evaluations,
@@ -141,7 +131,8 @@ std::string csv(const SweepJob& job, const SweepLedger& ledger, const SweepResul
 
 }  // namespace
 
-void write_if_changed(PlannedFiles& files, const std::filesystem::path& path, std::span<const unsigned char> bytes) {
+void write_if_changed(cli::PlannedFiles& files, const std::filesystem::path& path,
+                      std::span<const unsigned char> bytes) {
     std::ifstream file(path, std::ios::binary);
     const std::vector<char> present{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     const bool same =
@@ -150,13 +141,14 @@ void write_if_changed(PlannedFiles& files, const std::filesystem::path& path, st
     if (!same) files.write_made(path, [&] { return bytes; });
 }
 
-void write_costs(PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger) {
-    write_text(files, job.folder / kJsonFile, dump({{"unfinished", true}, {"costs", to_json(ledger)}}));
+void write_costs(cli::PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger) {
+    write_text(files, job.folder / kJsonFile, report::text_of({{"unfinished", true}, {"costs", to_json(ledger)}}));
 }
 
-void write_tables(PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger, const SweepResults& results) {
+void write_tables(cli::PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger,
+                  const SweepResults& results) {
     write_text(files, job.folder / kCsvFile, csv(job, ledger, results));
-    write_text(files, job.folder / kJsonFile, dump(sweep_json(job, ledger, results)));
+    write_text(files, job.folder / kJsonFile, report::text_of(sweep_json(job, ledger, results)));
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::sweep

@@ -9,15 +9,17 @@
 #include "tools/sweep/ledger.h"
 #include "tools/sweep/results.h"
 
-namespace strata::tools {
+namespace strata::tools::sweep {
 
 // Leaves a file that has these bytes already alone.
-void write_if_changed(PlannedFiles& files, const std::filesystem::path& path, std::span<const unsigned char> bytes);
+void write_if_changed(cli::PlannedFiles& files, const std::filesystem::path& path,
+                      std::span<const unsigned char> bytes);
 
 // sweep.json of a sweep that is not finished: the costs so far.
-void write_costs(PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger);
+void write_costs(cli::PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger);
 
 // Both tables. Equal sweeps give equal tables, apart from seconds, cpu_seconds and threads.
-void write_tables(PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger, const SweepResults& results);
+void write_tables(cli::PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger,
+                  const SweepResults& results);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::sweep

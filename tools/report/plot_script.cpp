@@ -1,4 +1,4 @@
-#include "tools/plot/script.h"
+#include "tools/report/plot_script.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-namespace strata::tools {
+namespace strata::tools::report {
 
 namespace {
 
@@ -257,4 +257,4 @@ std::string plot_script(const Plot& plot, PlotFormat format, std::string_view ou
     return text + "unset multiplot\nunset output\n";
 }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::report

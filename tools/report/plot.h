@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace strata::tools {
+namespace strata::tools::report {
 
 // A plot that cannot be drawn. what() names the panel, the series and the value.
 class PlotError : public std::runtime_error {
@@ -95,4 +95,4 @@ void write_plot(const Plot& plot, const std::filesystem::path& path);
 // Throws ProcessError when gnuplot is not there.
 void check_plotter();
 
-}  // namespace strata::tools
+}  // namespace strata::tools::report

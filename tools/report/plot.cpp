@@ -1,4 +1,4 @@
-#include "tools/plot/plot.h"
+#include "tools/report/plot.h"
 
 #include <fmt/format.h>
 
@@ -14,15 +14,15 @@
 #include "tools/cli/process.h"
 #include "tools/cli/temporary_folder.h"
 #include "tools/cli/text_file.h"
-#include "tools/plot/script.h"
+#include "tools/report/plot_script.h"
 
-namespace strata::tools {
+namespace strata::tools::report {
 
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path gnuplot() { return find_program("gnuplot", "gnuplot-nox", "plot"); }
+fs::path gnuplot() { return cli::find_program("gnuplot", "gnuplot-nox", "plot"); }
 
 PlotFormat format_of(const fs::path& path) {
     const std::string extension = image::extension_of(path);
@@ -94,20 +94,20 @@ void write_script(const fs::path& script, const std::string& text, const fs::pat
     file << text;
     file.close();
     if (file) return;
-    throw ProcessError(fmt::format("cannot write \"{}\": its script in \"{}\": {}", path.string(),
-                                   script.parent_path().string(),
-                                   std::generic_category().message(errno != 0 ? errno : EIO)));
+    throw cli::ProcessError(fmt::format("cannot write \"{}\": its script in \"{}\": {}", path.string(),
+                                        script.parent_path().string(),
+                                        std::generic_category().message(errno != 0 ? errno : EIO)));
 }
 
 // What gnuplot has drawn for `path`.
 std::vector<unsigned char> drawing(const fs::path& drawn, const fs::path& path) {
     std::string why;
-    const std::optional<std::string> bytes = read_text_file(drawn, why);
+    const std::optional<std::string> bytes = cli::read_text_file(drawn, why);
     if (!bytes) {
-        throw ProcessError(
+        throw cli::ProcessError(
             fmt::format("cannot write \"{}\": what gnuplot drew cannot be read: {}", path.string(), why));
     }
-    if (bytes->empty()) throw ProcessError("gnuplot drew nothing for " + path.string());
+    if (bytes->empty()) throw cli::ProcessError("gnuplot drew nothing for " + path.string());
     return {bytes->begin(), bytes->end()};
 }
 
@@ -131,11 +131,11 @@ std::vector<unsigned char> draw_plot(const Plot& plot, const fs::path& path) {
     const PlotFormat format = format_of(path);
     check_plot(plot);
     const fs::path program = gnuplot();
-    TemporaryFolder folder("plot");
+    cli::TemporaryFolder folder("plot");
     const fs::path script = folder.file("plot.gp"), drawn = folder.file("plot");
     write_script(script, plot_script(plot, format, drawn.string()), path);
     // -d: no start-up files of the user or the system.
-    run_program(program, {"-d", script.string()});
+    cli::run_program(program, {"-d", script.string()});
     return drawing(drawn, path);
 }
 
@@ -143,4 +143,4 @@ void write_plot(const Plot& plot, const fs::path& path) { image::replace_file(pa
 
 void check_plotter() { gnuplot(); }
 
-}  // namespace strata::tools
+}  // namespace strata::tools::report

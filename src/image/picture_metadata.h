@@ -9,17 +9,17 @@
 #include "src/image/metadata.h"
 #include "src/scene/scene.h"
 
-namespace strata::tools {
+namespace strata::image {
 
 // tracer and exr_format by their names on the command line. Nothing here differs between equal renders.
-image::Metadata picture_metadata(const scene::Scene& scene, const film::Rect& window, const std::string& tracer,
-                                 const std::string& exr_format);
+Metadata picture_metadata(const scene::Scene& scene, const film::Rect& window, const std::string& tracer,
+                          const std::string& exr_format);
 
 // Adds what a picture of several passes has to say: their number, and all samples of a pixel. One pass says nothing: it
 // is the plain render.
-void set_passes(image::Metadata& metadata, const scene::Sampling& sampling, int passes);
+void set_passes(Metadata& metadata, const scene::Sampling& sampling, int passes);
 
 // What an EXR says of its frame rate: nothing for the first frame of a scene in which nothing moves.
-std::optional<image::FrameRate> frame_rate(const scene::Scene& scene);
+std::optional<FrameRate> frame_rate(const scene::Scene& scene);
 
-}  // namespace strata::tools
+}  // namespace strata::image

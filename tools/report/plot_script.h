@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "tools/plot/plot.h"
+#include "tools/report/plot.h"
 
-namespace strata::tools {
+namespace strata::tools::report {
 
 enum class PlotFormat { png, svg };
 
@@ -21,4 +21,4 @@ std::string gnuplot_string(std::string_view text);
 // "10⁻⁶".
 std::string power_of_ten(int exponent);
 
-}  // namespace strata::tools
+}  // namespace strata::tools::report

@@ -1,4 +1,4 @@
-#include "tools/job/picture_metadata.h"
+#include "src/image/picture_metadata.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "src/scene/needs.h"
 #include "src/scene/printer.h"
 
-namespace strata::tools {
+namespace strata::image {
 
 namespace {
 
@@ -23,7 +23,7 @@ std::string filter_text(const scene::Sampling& sampling) {
 
 // The fraction nearest to a rate, of whole numbers that an EXR has room for. Decimals have up to six digits behind the
 // point, but for rates too high to need them.
-image::FrameRate nearest_fraction(double numerator, double denominator) {
+FrameRate nearest_fraction(double numerator, double denominator) {
     constexpr double kMost = std::numeric_limits<int>::max();
     while (numerator != std::floor(numerator) && denominator < 1e6 && numerator * 10 < kMost) {
         numerator *= 10;
@@ -36,13 +36,13 @@ image::FrameRate nearest_fraction(double numerator, double denominator) {
 
 }  // namespace
 
-image::Metadata picture_metadata(const scene::Scene& scene, const film::Rect& window, const std::string& tracer,
-                                 const std::string& exr_format) {
+Metadata picture_metadata(const scene::Scene& scene, const film::Rect& window, const std::string& tracer,
+                          const std::string& exr_format) {
     const scene::Sampling& sampling = scene.sampling;
     const film::Rect& w = window;
-    image::Metadata metadata;
+    Metadata metadata;
     metadata.set("strata:version", STRATA_VERSION);
-    metadata.set(image::kSceneKey, scene::print_scene(scene));
+    metadata.set(kSceneKey, scene::print_scene(scene));
     if (w != film::Rect{0, 0, scene.film.width, scene.film.height}) {
         metadata.set("strata:crop", fmt::format("{},{},{},{}", w.x0, w.y0, w.x1, w.y1));
     }
@@ -56,16 +56,16 @@ image::Metadata picture_metadata(const scene::Scene& scene, const film::Rect& wi
     return metadata;
 }
 
-void set_passes(image::Metadata& metadata, const scene::Sampling& sampling, int passes) {
+void set_passes(Metadata& metadata, const scene::Sampling& sampling, int passes) {
     if (passes <= 1) return;
     metadata.set("strata:passes", passes);
     metadata.set("strata:samples", std::int64_t{passes} * sampling.N * sampling.N);
 }
 
-std::optional<image::FrameRate> frame_rate(const scene::Scene& scene) {
+std::optional<FrameRate> frame_rate(const scene::Scene& scene) {
     const bool is_animated = scene.shutter.frame != 0 || !scene.camera.keys.empty() || scene::motion(scene).any();
     if (!is_animated) return std::nullopt;
     return nearest_fraction(scene.shutter.fps.numerator(), scene.shutter.fps.denominator());
 }
 
-}  // namespace strata::tools
+}  // namespace strata::image
