@@ -4,89 +4,22 @@
 
 #include <utility>
 
-#include "src/scene/enum_names.h"
+#include "src/scene/key_makers.h"
+#include "src/scene/pattern_keys.h"
 #include "src/scene/relief_keys.h"
 
 namespace strata::scene {
 
+namespace key_makers {
 namespace {
 
-constexpr Range kAnywhere{-1e12, 1e12};
-constexpr Range kLength{1e-9, 1e9};
-constexpr Range kDistance{1e-12, 1e12};
-constexpr Range kLight{0.0, 1e6};
-constexpr Range kReflectance{0.0, 1.0};
-constexpr Range kFraction{0.0, 1.0};
-constexpr Range kAngle{-1e6, 1e6};
 constexpr Range kFieldOfView{0.01, 179.0};
 constexpr Range kDrift{-1e6, 1e6};
 constexpr Range kTime{-1e9, 1e9};
 
-Key number(std::string name, double& field, Range range, std::string_view unit, std::string_view meaning) {
-    return {.section = {}, .name = std::move(name), .field = &field, .range = range, .unit = unit, .meaning = meaning};
-}
-
-Key rate(std::string name, Rate& field, Range range, std::string_view unit, std::string_view meaning) {
-    return {.section = {}, .name = std::move(name), .field = &field, .range = range, .unit = unit, .meaning = meaning};
-}
-
-Key count(std::string name, int& field, Range range, std::string_view unit, std::string_view meaning) {
-    return {.section = {}, .name = std::move(name), .field = &field, .range = range, .unit = unit, .meaning = meaning};
-}
-
-Key vector(std::string name, glm::dvec3& field, Range range, std::string_view unit, std::string_view meaning) {
-    return {.section = {}, .name = std::move(name), .field = &field, .range = range, .unit = unit, .meaning = meaning};
-}
-
-Key direction(std::string name, glm::dvec3& field, std::string_view meaning) {
-    Key key = vector(std::move(name), field, kAnywhere, "", meaning);
-    key.is_direction = true;
-    return key;
-}
-
-Key colour(std::string name, glm::dvec3& field, Range range, std::string_view meaning) {
-    return vector(std::move(name), field, range, "linear red, green, blue", meaning);
-}
-
-Key seed(std::string name, std::uint64_t& field, std::string_view meaning) {
-    return {.section = {}, .name = std::move(name), .field = &field, .range = {}, .unit = {}, .meaning = meaning};
-}
-
-Key flag(std::string name, bool& field, std::string_view meaning) {
-    return {.section = {}, .name = std::move(name), .field = &field, .range = {}, .unit = {}, .meaning = meaning};
-}
-
-Key text(std::string name, std::string& field, std::string_view meaning) {
-    return {.section = {}, .name = std::move(name), .field = &field, .range = {}, .unit = {}, .meaning = meaning};
-}
-
-template <class E>
-Key choice(std::string name, E& field, std::string_view meaning) {
-    Choice names{kEnumNames<E>, [&field] { return static_cast<std::size_t>(field); },
-                 [&field](std::size_t index) { field = static_cast<E>(index); }};
-    return {.section = {}, .name = std::move(name), .field = names, .range = {}, .unit = {}, .meaning = meaning};
-}
-
-Key camera_keys(std::string name, std::vector<CameraKey>& field, std::string_view meaning) {
-    return {.section = {}, .name = std::move(name), .field = &field, .range = {}, .unit = {}, .meaning = meaning};
-}
-
-Key only_if(bool matters, Key key) {
-    key.matters = matters;
-    return key;
-}
-
-Section section(std::string name, std::string_view meaning, bool matters, std::vector<Key> keys) {
-    for (Key& key : keys) {
-        key.section = name;
-        key.matters = key.matters && matters;
-    }
-    return {std::move(name), meaning, std::move(keys), false};
-}
-
 Section top_section(Scene& s) {
     return section("", "", true,
-                   {text("title", s.title, "one line for listings"),
+                   {plain("title", s.title, "one line for listings"),
                     choice("image", s.image, "what is pictured: a ray-cast surface or a test pattern")});
 }
 
@@ -117,7 +50,7 @@ Section sampling_section(Sampling& sampling, bool surface) {
          count("m", sampling.m, {1, 100}, "", "order of the B-spline filter in space; 1 is the box, 4 the cubic"),
          count("time_order", sampling.time_order, {1, 100}, "",
                "order of the B-spline filter in time; support time_order * open_s"),
-         seed("seed", sampling.seed, "chooses the sample positions"),
+         plain("seed", sampling.seed, "chooses the sample positions"),
          only_if(surface, number("tolerance", sampling.tolerance, {1e-12, 1.0}, "pixel widths at the hit's distance",
                                  "how far a reported hit may be from the surface along the ray"))});
 }
@@ -125,7 +58,7 @@ Section sampling_section(Sampling& sampling, bool surface) {
 Section shutter_section(Shutter& shutter) {
     // Frame times stay finite because fps is bounded below and frame above.
     return section("shutter", "frame k begins at k / fps seconds", true,
-                   {rate("fps", shutter.fps, {1e-3, 1e6}, "frames/s", "frame rate; a fraction as text, \"24000/1001\""),
+                   {key("fps", &shutter.fps, {1e-3, 1e6}, "frames/s", "frame rate; a fraction as text, \"24000/1001\""),
                     number("open_s", shutter.open_s, {0.0, 1e6}, "s", "time the shutter is open; 0: an instant"),
                     count("frame", shutter.frame, {0, 1e9}, "", "number of the frame, from 0")});
 }
@@ -140,9 +73,9 @@ Section camera_section(Camera& camera, bool matters) {
          number("far", camera.far, kDistance, "world units along a ray", "nothing is seen beyond"),
          choice("interpolation", camera.interpolation,
                 "between keys: smooth eases through them without overshoot, linear goes straight"),
-         camera_keys("keys", camera.keys,
-                     "the camera over time, also as [[camera.keys]]; it rests before the first and after the last; "
-                     "parts left out are the camera's own")});
+         plain("keys", camera.keys,
+               "the camera over time, also as [[camera.keys]]; it rests before the first and after the last; "
+               "parts left out are the camera's own")});
 }
 
 Section surface_section(Surface& surface, bool matters) {
@@ -167,7 +100,7 @@ Section surface_section(Surface& surface, bool matters) {
          only_if(own_sum, number("amplitude", surface.amplitude, {0.0, 1e6}, "surface units", "amplitude of octave 0")),
          only_if(own_sum, number("frequency", surface.frequency, {1e-9, 1e9}, "lattice cells a surface unit",
                                  "frequency of octave 0")),
-         only_if(own_sum, seed("seed", surface.seed, "chooses the noise")),
+         only_if(own_sum, plain("seed", surface.seed, "chooses the noise")),
          only_if(planet, number("radius", surface.radius, kLength, "surface units", "planet: radius of its sphere")),
          only_if(isosurface, number("threshold", surface.threshold, {-1e9, 1e9}, "surface units",
                                     "isosurface: solid where the sum exceeds it")),
@@ -188,7 +121,7 @@ Section sun_section(Sun& sun, bool daylight, bool matters) {
         {direction("direction", sun.direction, "towards the sun"),
          only_if(!daylight, colour("colour", sun.colour, kLight, "colour of its light")),
          only_if(!daylight, number("intensity", sun.intensity, kLight, "", "times colour is the light; 0: no sun")),
-         flag("shadows", sun.shadows, "whether the surface shadows itself"),
+         plain("shadows", sun.shadows, "whether the surface shadows itself"),
          only_if(daylight, number("shadow_height", sun.shadow_height, {-1e6, 1e6}, "surface units",
                                   "daylight: up to here lies the shadow of mountains out of the picture")),
          only_if(daylight, number("shadow_relief", sun.shadow_relief, {0.0, 1e6}, "surface units",
@@ -230,53 +163,11 @@ Section material_section(Material& material, bool matters) {
                 "slopes over which steep takes over")});
 }
 
-Section zoneplate_section(Zoneplate& zoneplate, bool matters) {
-    return section(
-        "zoneplate", "rings that grow finer outwards", matters,
-        {number("rings", zoneplate.rings, {0.0, 1e9}, "periods",
-                "rings from the centre to the frame's nearer edge; 0: so many that the last is 2 pixels wide")});
-}
-
-Section checker_section(Checker& checker, bool matters) {
-    return section(
-        "checker", "a checkered plane that recedes to the horizon", matters,
-        {number("square", checker.square, kLength, "world units", "side of a square"),
-         number("height", checker.height, kLength, "world units", "height of the eye over the plane"),
-         number("horizon", checker.horizon, kFraction, "of the frame's height", "where the horizon is, from the top")});
-}
-
-Section wheel_section(Wheel& wheel, bool matters) {
-    return section(
-        "wheel", "a spoked wheel that turns", matters,
-        {count("spokes", wheel.spokes, {1, 1000}, "", "number of spokes, evenly spread"),
-         number("turns_per_s", wheel.turns_per_s, {-1e6, 1e6}, "turns/s", "speed, counter-clockwise on the screen"),
-         number("spoke_fill", wheel.spoke_fill, kFraction, "of the angle", "how much of the wheel is spoke")});
-}
-
-Section edge_section(Edge& edge, bool matters) {
-    return section(
-        "edge", "a straight edge between black and white", matters,
-        {number("angle_deg", edge.angle_deg, kAngle, "degrees counter-clockwise from right",
-                "direction in which the white side lies"),
-         number("offset", edge.offset, kAnywhere, "pixels", "of the edge from the frame's centre in that direction")});
-}
-
-Section ramp_section(Ramp& ramp, bool matters) {
-    return section(
-        "ramp", "grey that rises evenly", matters,
-        {number("angle_deg", ramp.angle_deg, kAngle, "degrees counter-clockwise from right", "direction of the rise"),
-         number("rise", ramp.rise, {-1e6, 1e6}, "over the frame's width",
-                "how much brighter; the frame's centre is 0.5")});
-}
-
-Section constant_section(Constant& constant, bool matters) {
-    return section("constant", "one grey everywhere", matters,
-                   {number("value", constant.value, kLight, "linear radiance", "the grey")});
-}
-
 }  // namespace
+}  // namespace key_makers
 
 Section describe_camera_key(CameraKey& entry, Camera& rest, std::size_t index) {
+    using namespace key_makers;
     return section(
         fmt::format("camera.keys[{}]", index), "the camera at one time", true,
         {number("time_s", entry.time_s, kTime, "s", "when"),
@@ -287,6 +178,7 @@ Section describe_camera_key(CameraKey& entry, Camera& rest, std::size_t index) {
 }
 
 std::vector<Section> describe(Scene& scene) {
+    using namespace key_makers;
     const bool surface = scene.image == ImageKind::surface;
     std::vector<Section> all{top_section(scene),
                              film_section(scene.film),
@@ -297,13 +189,8 @@ std::vector<Section> describe(Scene& scene) {
                              scale_section(scene.scale, surface && scene.sky.model == SkyModel::daylight),
                              sun_section(scene.sun, scene.sky.model == SkyModel::daylight, surface),
                              sky_section(scene.sky, surface),
-                             material_section(scene.material, surface),
-                             zoneplate_section(scene.zoneplate, scene.image == ImageKind::zoneplate),
-                             checker_section(scene.checker, scene.image == ImageKind::checker),
-                             wheel_section(scene.wheel, scene.image == ImageKind::wheel),
-                             edge_section(scene.edge, scene.image == ImageKind::edge),
-                             ramp_section(scene.ramp, scene.image == ImageKind::ramp),
-                             constant_section(scene.constant, scene.image == ImageKind::constant)};
+                             material_section(scene.material, surface)};
+    add_pattern_sections(scene, all);
     for (noise::ReliefTerm& term : scene.surface.relief) {
         all.push_back(describe_relief_term(term));
         for (Key& key : all.back().keys) key.matters = surface;
