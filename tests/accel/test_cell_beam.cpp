@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "src/trace/beam_tracer.h"
 #include "tests/trace/ray_families.h"
@@ -28,31 +27,30 @@ void add_keys(Random& random, scene::Camera& camera) {
                                .fov_deg = camera.fov_deg * uniform(random, 0.8, 1.0)});
     }
 }
+
 // A sum of 1: spinning, 2: drifting, 4: the camera moving.
 scene::Scene random_scene(Random& random, SurfaceKind kind, int motion) {
     scene::Scene scene;
     scene.film = {.width = 1 + static_cast<int>(random() % 2000), .height = 1 + static_cast<int>(random() % 2000)};
-    scene.surface = surface_of(kind);
-    scene.surface.bound = random() % 2 == 0 ? scene::BoundKind::ball : scene::BoundKind::box;
-    scene.surface.octaves = 1 + static_cast<int>(random() % 8);
-    scene.surface.amplitude = log_uniform(random, 1e-2, 2.0);
-    scene.surface.radius = log_uniform(random, 0.1, 1e3);
-    scene.surface.scale = random() % 2 == 0 ? 1.0 : log_uniform(random, 1e-3, 1e3);
+    scene::Surface& s = scene.surface = surface_of(kind);
+    s.bound = random() % 2 == 0 ? scene::BoundKind::ball : scene::BoundKind::box;
+    s.octaves = 1 + static_cast<int>(random() % 8);
+    s.amplitude = log_uniform(random, 1e-2, 2.0);
+    s.radius = log_uniform(random, 0.1, 1e3);
+    s.scale = random() % 2 == 0 ? 1.0 : log_uniform(random, 1e-3, 1e3);
     if (random() % 2 == 0) {
-        scene.surface.origin = log_uniform(random, 0.1, 1e4) * unit_vector(random);
-        scene.surface.rotation_deg = 180.0 * unit_vector(random);
+        s.origin = log_uniform(random, 0.1, 1e4) * unit_vector(random);
+        s.rotation_deg = 180.0 * unit_vector(random);
     }
     if ((motion & 1) != 0) {
-        scene.surface.spin_axis = unit_vector(random);
-        scene.surface.spin_deg_per_s = log_uniform(random, 1e-2, 720.0) * (random() % 2 == 0 ? 1.0 : -1.0);
+        s.spin_axis = unit_vector(random);
+        s.spin_deg_per_s = log_uniform(random, 1e-2, 720.0) * (random() % 2 == 0 ? 1.0 : -1.0);
     }
-    if ((motion & 2) != 0) scene.surface.drift = log_uniform(random, 1e-3, 10.0) * unit_vector(random);
-    const double size =
-        scene.surface.scale * (kind == SurfaceKind::planet ? scene.surface.radius + scene.surface.amplitude : 4.0);
+    if ((motion & 2) != 0) s.drift = log_uniform(random, 1e-3, 10.0) * unit_vector(random);
+    const double size = s.scale * (kind == SurfaceKind::planet ? s.radius + s.amplitude : 4.0);
     const glm::dvec3 away = unit_vector(random);
-    scene.camera.position = scene.surface.origin + log_uniform(random, 0.3, 20.0) * size * away;
-    scene.camera.look_at =
-        scene.surface.origin + uniform(random, 0.0, 1.2) * size * unit_vector(random) + 1e-3 * size * away;
+    scene.camera.position = s.origin + log_uniform(random, 0.3, 20.0) * size * away;
+    scene.camera.look_at = s.origin + uniform(random, 0.0, 1.2) * size * unit_vector(random) + 1e-3 * size * away;
     scene.camera.up = unit_vector(random);
     scene.camera.fov_deg = random() % 3 == 0 ? uniform(random, 100.0, 175.0) : log_uniform(random, 0.5, 100.0);
     scene.camera.far = log_uniform(random, 2.0, 100.0) * size;
