@@ -18,23 +18,16 @@
 #include "tools/cli/process.h"
 #include "tools/cli/standard_output.h"
 
-// Each folder tools/NAME has a command, which adds itself to the program and runs when it was chosen, leaving its exit
-// code.
-#define STRATA_DECLARE_COMMAND(name)                         \
-    namespace strata::tools::name {                          \
-    void add_command(cli::Command& program, int& exit_code); \
+// Each is a folder tools/NAME, in whose command.cpp add_command() adds it to the program.
+#define STRATA_COMMANDS(use)                                                                             \
+    use(render) use(scene_list) use(probe) use(strip) use(sweep) use(animate) use(figures) use(converge) \
+        use(stability) use(explain) use(bench)
+
+#define STRATA_DECLARE(name)                 \
+    namespace strata::tools::name {          \
+    void add_command(cli::Command& program); \
     }
-STRATA_DECLARE_COMMAND(render)
-STRATA_DECLARE_COMMAND(scene_list)
-STRATA_DECLARE_COMMAND(probe)
-STRATA_DECLARE_COMMAND(strip)
-STRATA_DECLARE_COMMAND(sweep)
-STRATA_DECLARE_COMMAND(animate)
-STRATA_DECLARE_COMMAND(figures)
-STRATA_DECLARE_COMMAND(converge)
-STRATA_DECLARE_COMMAND(stability)
-STRATA_DECLARE_COMMAND(explain)
-STRATA_DECLARE_COMMAND(bench)
+STRATA_COMMANDS(STRATA_DECLARE)
 
 namespace {
 
@@ -125,18 +118,8 @@ int run(int argc, char** argv) {
     CLI::App& program = commands.app();
     program.set_version_flag("--version", "strata " STRATA_VERSION, "Print the program's version");
     commands.require_subcommand();
-    int exit_code = 0;
-    strata::tools::render::add_command(commands, exit_code);
-    strata::tools::scene_list::add_command(commands, exit_code);
-    strata::tools::probe::add_command(commands, exit_code);
-    strata::tools::strip::add_command(commands, exit_code);
-    strata::tools::sweep::add_command(commands, exit_code);
-    strata::tools::animate::add_command(commands, exit_code);
-    strata::tools::figures::add_command(commands, exit_code);
-    strata::tools::converge::add_command(commands, exit_code);
-    strata::tools::stability::add_command(commands, exit_code);
-    strata::tools::explain::add_command(commands, exit_code);
-    strata::tools::bench::add_command(commands, exit_code);
+#define STRATA_ADD(name) strata::tools::name::add_command(commands);
+    STRATA_COMMANDS(STRATA_ADD)
     // Commands added later would inherit it.
     program.footer("'strata COMMAND --help' explains each. `strata render` without more renders the scene terrain.");
     try {
@@ -159,7 +142,7 @@ int run(int argc, char** argv) {
     } catch (const std::exception& error) {
         return fail(strata::tools::cli::message_of(error).c_str(), strata::tools::cli::kExitRuntime);
     }
-    return exit_code;
+    return commands.exit_code();
 }
 
 }  // namespace

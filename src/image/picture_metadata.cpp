@@ -50,7 +50,7 @@ Metadata picture_metadata(const scene::Scene& scene, const film::Rect& window, c
     metadata.set("strata:format", exr_format);
     metadata.set("strata:simd_target", noise::simd_target());
     metadata.set("strata:estimator", scene::name_of(sampling.estimator));
-    metadata.set("strata:samples", sampling.estimator == scene::EstimatorKind::none ? 1 : sampling.N * sampling.N);
+    metadata.set("strata:samples", scene::samples_a_pixel(sampling));
     metadata.set("strata:filter", filter_text(sampling));
     metadata.set("strata:seed", sampling.seed);
     return metadata;

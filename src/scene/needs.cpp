@@ -18,6 +18,10 @@ Motion motion(const Scene& scene) {
             .drift = noise_drifts(scene.surface)};
 }
 
+int samples_a_pixel(const Sampling& sampling) {
+    return sampling.estimator == EstimatorKind::none ? 1 : sampling.N * sampling.N;
+}
+
 bool needs_time_samples(const Scene& scene) {
     return scene.sampling.estimator != EstimatorKind::none && scene.shutter.open_s > 0.0 && motion(scene).any();
 }

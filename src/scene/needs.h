@@ -21,6 +21,9 @@ struct Motion {
 };
 Motion motion(const Scene& scene);
 
+// Samples that an estimator takes for a pixel, in one pass: N x N, but for the pixel's centre alone.
+int samples_a_pixel(const Sampling& sampling);
+
 // Whether samples are spread over the time that the shutter is open: it is open for longer than an instant, something
 // moves meanwhile, and the estimator samples more than the pixel's centre.
 bool needs_time_samples(const Scene& scene);

@@ -148,19 +148,20 @@ TEST_CASE("a record vouches for each of its files, byte by byte") {
 TEST_CASE("a film is made when its record vouches for both of its files") {
     const ScratchFolder folder;
     const Film film = films(Size::small).front();
+    const MakeOptions options{.folder = folder.path(), .size = Size::small, .quiet = true};
     const std::vector<std::string> files = film_files(film);
     for (const std::string& file : files) write_bytes(folder / file, "frames of " + file);
-    CHECK(!is_made(film, folder.path(), true));
+    CHECK(!is_made(film, options));
     write_record(folder / (film.name + ".json"), film_record(film), files);
-    CHECK(is_made(film, folder.path(), true));
-    CHECK(!is_made(films(Size::large).front(), folder.path(), true));
+    CHECK(is_made(film, options));
+    CHECK(!is_made(films(Size::large).front(), options));
     for (const std::string& file : files) {
         const std::string whole = file_bytes(folder / file);
         for (const std::string& damaged : {std::string(), whole.substr(0, 5), "Frames" + whole.substr(6)}) {
             write_bytes(folder / file, damaged);
-            CHECK(!is_made(film, folder.path(), true));
+            CHECK(!is_made(film, options));
         }
         write_bytes(folder / file, whole);
-        CHECK(is_made(film, folder.path(), true));
+        CHECK(is_made(film, options));
     }
 }

@@ -10,7 +10,7 @@ tiny=(--size 12x10 --N "1,2,4" --m 4 --estimators "stratified,random,shared,unif
 check_refusals() {
     refuses 'no scene is refused' 2 '*SCENE is required*' converge
     refuses 'an unknown image function gets the nearest name' 2 "*did you mean 'edge'*" converge egde
-    refuses 'an unknown estimator gets the nearest name' 2 "*sobl: allowed*did you mean 'sobol'*" \
+    refuses 'an unknown estimator gets the nearest name' 2 "*'sobl' is no estimator, allowed*did you mean 'sobol'*" \
         converge edge --estimators stratified,sobl
     refuses 'an unknown tracer gets those there are' 2 '*exact: allowed: fast, reference*' converge terrain --tracers exact
     refuses 'a pattern has no tracer but the default' 2 "*'edge' has no surface to trace*" converge edge --tracers reference

@@ -14,12 +14,11 @@ namespace {
 
 using Options = std::vector<AxisOption>;
 
-SweepAxes parse(const Options& lists, const Options& anywhere = {}, const Options& rows = {},
-                const Options& columns = {}) {
+Axes parse(const Options& lists, const Options& anywhere = {}, const Options& rows = {}, const Options& columns = {}) {
     return parse_axes({lists, anywhere, rows, columns});
 }
 
-SweepAxis axis(std::vector<std::string> values, std::string key = "sampling.N") {
+Axis axis(std::vector<std::string> values, std::string key = "sampling.N") {
     return {"--axis", std::move(key), std::move(values)};
 }
 
@@ -31,7 +30,7 @@ void check_refused(const char* words, const Options& lists, const Options& anywh
 }  // namespace
 
 TEST_CASE("N makes the columns and m the rows, in whatever order and beside whatever else they stand") {
-    const SweepAxes both = parse({{"--m", "1,4,15"}, {"--N", "1,2"}});
+    const Axes both = parse({{"--m", "1,4,15"}, {"--N", "1,2"}});
     CHECK(both.columns->key == "sampling.N");
     CHECK(both.rows->key == "sampling.m");
     CHECK(both.rows->values == std::vector<std::string>{"1", "4", "15"});
@@ -46,7 +45,7 @@ TEST_CASE("one axis is enough, and lists of one value stand beside two axes") {
     CHECK(parse({{"--m", "1,2"}}).columns->key == "sampling.m");
     CHECK_FALSE(parse({{"--m", "1,2"}}).rows.has_value());
     CHECK(parse({{"--m", "3"}}).columns->values.size() == 1);
-    const SweepAxes axes = parse({{"--N", "1,2"}, {"--m", "1,4"}, {"--estimator", "sobol"}, {"--seed", "7"}});
+    const Axes axes = parse({{"--N", "1,2"}, {"--m", "1,4"}, {"--estimator", "sobol"}, {"--seed", "7"}});
     REQUIRE(axes.fixed.size() == 2);
     CHECK(axes.fixed[0].key == "sampling.estimator");
     CHECK(axes.fixed[1].values == std::vector<std::string>{"7"});
@@ -79,10 +78,13 @@ TEST_CASE("axes that cannot be are refused with what is wrong") {
 }
 
 TEST_CASE("lists are cut at commas outside of brackets and quotes") {
-    CHECK(split_list("1, 2,10") == std::vector<std::string>{"1", "2", "10"});
-    CHECK(split_list("[1,2,3], [4,5,6]") == std::vector<std::string>{"[1,2,3]", "[4,5,6]"});
-    CHECK(split_list("\"a,b\",'c,d'") == std::vector<std::string>{"\"a,b\"", "'c,d'"});
-    CHECK(split_list("") == std::vector<std::string>{""});
+    const auto values = [](const char* text) {
+        return parse({}, {{"--axis", std::string("title=") + text}}).columns->values;
+    };
+    CHECK(values("1, 2,10") == std::vector<std::string>{"1", "2", "10"});
+    CHECK(values("[1,2,3], [4,5,6]") == std::vector<std::string>{"[1,2,3]", "[4,5,6]"});
+    CHECK(values("\"a,b\",'c,d'") == std::vector<std::string>{"\"a,b\"", "'c,d'"});
+    check_refused("brackets do not match", {{"--N", "1,[2"}});
 }
 
 TEST_CASE("file names sort as numbers do, are plain and differ for different values") {
@@ -90,8 +92,8 @@ TEST_CASE("file names sort as numbers do, are plain and differ for different val
     CHECK(file_part(axis({"1", "2", "100"}), 0) == "N001");
     CHECK(file_part(axis({"1"}, "sampling.time_order"), 0) == "l01");
     CHECK(file_part(axis({"0.5", "1e3"}, "camera.fov_deg"), 0) == "fov_deg0.5");
-    for (const SweepAxis& a : {axis({"[1,2,3]", "[1 2 3]", "(1,2,3)"}), axis({"1", "01", "001"}),
-                               axis({"\"../x\"", "..!x", "a/b", "a\\b", "A_B"}), axis({"ab", "AB", "aB"})}) {
+    for (const Axis& a : {axis({"[1,2,3]", "[1 2 3]", "(1,2,3)"}), axis({"1", "01", "001"}),
+                          axis({"\"../x\"", "..!x", "a/b", "a\\b", "A_B"}), axis({"ab", "AB", "aB"})}) {
         std::set<std::string> names;
         for (std::size_t i = 0; i < a.values.size(); ++i) {
             std::string name = file_part(a, i);

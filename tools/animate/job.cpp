@@ -8,7 +8,6 @@
 #include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
-#include "src/image/picture_metadata.h"
 #include "src/image/stream_target.h"
 #include "src/image/text.h"
 #include "src/scene/key_text.h"
@@ -17,7 +16,7 @@
 #include "tools/animate/sheet.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/process.h"
-#include "tools/job/clipping.h"
+#include "tools/job/exr_format.h"
 
 namespace strata::tools::animate {
 
@@ -25,7 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kMostThreads = 1024;
 constexpr const char* kExtensions = ".exr, .png, .tif or .jpg for frames, .mp4, .webm or .gif for films";
 
 // What the paper's animations compare, of the built-in scenes that are made for them.
@@ -39,7 +37,7 @@ std::string default_columns(const cli::LoadedScene& loaded) {
     return {};
 }
 
-std::string choose_columns(const AnimateRequest& request, const cli::LoadedScene& loaded) {
+std::string choose_columns(const Request& request, const cli::LoadedScene& loaded) {
     const bool has_sides = !request.left.empty() || !request.right.empty();
     if (!request.columns.empty() && has_sides) {
         throw cli::UsageError("--columns: allowed: without --left and --right, which are another way to say it");
@@ -53,7 +51,7 @@ std::string choose_columns(const AnimateRequest& request, const cli::LoadedScene
     return left + "; " + right;
 }
 
-void check_columns(const AnimateJob& job) {
+void check_columns(const Job& job) {
     const scene::Scene& base = job.scene;
     for (const job::ColumnSettings& column : job.columns) {
         const scene::Scene scene = job::with_settings(base, column, "--columns");
@@ -61,21 +59,15 @@ void check_columns(const AnimateJob& job) {
         const bool same_time = scene.shutter.fps == base.shutter.fps && scene.shutter.frame == base.shutter.frame;
         if (same_frame && same_time) continue;
         throw cli::UsageError(
-            fmt::format("--columns '{}': allowed: the same film.width, film.height, shutter.fps and "
-                        "shutter.frame for all columns; --size and --frames set them",
+            fmt::format("--columns '{}': allowed: the same film.width, film.height, shutter.fps and shutter.frame for "
+                        "all columns; --size and --frames set them",
                         scene::excerpt(column.text)));
     }
 }
 
-image::ExrFormat parse_exr_format(const std::string& name) {
-    if (name == "half") return image::ExrFormat::half;
-    if (name == "float") return image::ExrFormat::floating;
-    throw cli::UsageError(fmt::format("--format {}: allowed: half, float", scene::excerpt(name)));
-}
-
 bool is_png(const FrameOutput& output) { return image::extension_of(output.pattern.path(0)) == ".png"; }
 
-void add_output(AnimateJob& job, const fs::path& typed) {
+void add_output(Job& job, const fs::path& typed) {
     if (!typed.has_filename()) throw cli::UsageError(fmt::format("-o {}: names no file", typed.string()));
     if (image::stream_target(typed)) {
         throw cli::UsageError(fmt::format(
@@ -111,24 +103,23 @@ void add_output(AnimateJob& job, const fs::path& typed) {
 
 // Films are made of PNG frames: those asked for, or some in a folder beside the first film (frames_folder.h), which
 // stays when the animation is interrupted.
-void choose_film_source(AnimateJob& job) {
+void choose_film_source(Job& job) {
     if (job.films.empty()) return;
     const auto found = std::ranges::find_if(job.frames, is_png);
     job.film_source = static_cast<std::size_t>(found - job.frames.begin());
 }
 
 // What its format does not hold, too: the last frame's number is the longest.
-void check_frame(const AnimateJob& job, const fs::path& path, int frame) {
+void check_frame(const Job& job, const fs::path& path, int frame) {
     image::check_replaceable(path);
-    const image::PictureShape whole{job.width, job.height, 0, 0, job.width, job.height};
     try {
-        image::check_encodable(path, whole, frame_metadata(job, frame), job.write);
+        image::check_encodable(path, frame_shape(job), frame_metadata(job, frame), job.write);
     } catch (const image::ImageError& error) {
         throw cli::UsageError(error.what());
     }
 }
 
-void check_paths(const AnimateJob& job) {
+void check_paths(const Job& job) {
     for (const fs::path& film : job.films) {
         check_timing(film, job.range, job.scene.shutter.fps);
         image::check_replaceable(film);
@@ -141,15 +132,15 @@ void check_paths(const AnimateJob& job) {
 }
 
 // Every frame has its own time: what is within reach of one may not be of another.
-void check_scenes(const AnimateJob& job) {
+void check_scenes(const Job& job) {
     for (const int frame : job.range) {
-        for (const scene::Scene& scene : frame_scenes(job, frame)) {
-            scene::validate(scene, fmt::format("frame {}", frame));
+        for (const job::PictureJob& picture : frame_pictures(job, frame)) {
+            scene::validate(picture.scene, fmt::format("frame {}", frame));
         }
     }
 }
 
-void choose_size(AnimateJob& job) {
+void choose_size(Job& job) {
     job.width = job.scene.film.width;
     job.height = job.scene.film.height;
     if (job.columns.empty()) return;
@@ -162,18 +153,14 @@ void choose_size(AnimateJob& job) {
 
 }  // namespace
 
-AnimateJob prepare_animation(const AnimateRequest& request) {
-    AnimateJob job;
+Job prepare_animation(const cli::LoadedScene& loaded, const Request& request) {
+    Job job;
     job.overwrite = request.overwrite;
     job.quiet = request.quiet;
-    job.threads = cli::parse_integer("--threads", request.threads, 0, kMostThreads);
-    if (!request.simd.empty()) cli::use_simd_target(request.simd);
+    job.threads = request.threads;
     job.tracer = request.tracer;
-    cli::parse_tracer(job.tracer);
-    const cli::LoadedScene loaded = request.scene.load();
     job.scene = loaded.scene;
-    job.format = request.format.empty() ? "half" : request.format;
-    job.write = {.colour = image::colour_out(job.scene.film), .exr_format = parse_exr_format(job.format)};
+    job.write = {.colour = image::colour_out(job.scene.film), .exr_format = request.format};
     if (!job.quiet) job.write.warn = job::warn_of_clipping;
     job.range = request.frames.empty() ? default_frames(job.scene) : parse_frames(request.frames);
     job.scene.shutter.frame = job.range.first();
@@ -190,28 +177,30 @@ AnimateJob prepare_animation(const AnimateRequest& request) {
     return job;
 }
 
-void add_scratch_frames(AnimateJob& job, const fs::path& folder) {
+void add_scratch_frames(Job& job, const fs::path& folder) {
     job.frames.push_back({.pattern = FramePattern(folder / "frame.####.png"), .is_scratch = true});
 }
 
-std::vector<scene::Scene> frame_scenes(const AnimateJob& job, int frame) {
+std::vector<job::PictureJob> frame_pictures(const Job& job, int frame) {
     scene::Scene scene = job.scene;
     scene.shutter.frame = frame;
-    if (job.columns.empty()) return {scene};
-    std::vector<scene::Scene> scenes;
+    if (job.columns.empty()) return {job::whole_frame(scene, job.tracer)};
+    std::vector<job::PictureJob> pictures;
     for (const job::ColumnSettings& column : job.columns) {
-        scenes.push_back(job::with_settings(scene, column, fmt::format("frame {}: --columns", frame)));
+        pictures.push_back(
+            job::whole_frame(job::with_settings(scene, column, fmt::format("frame {}: --columns", frame)), job.tracer));
     }
-    return scenes;
+    return pictures;
 }
 
-image::Metadata frame_metadata(const AnimateJob& job, int frame) {
+image::Metadata frame_metadata(const Job& job, int frame) {
     scene::Scene scene = job.scene;
     scene.shutter.frame = frame;
-    const film::Rect whole{0, 0, scene.film.width, scene.film.height};
-    image::Metadata metadata = image::picture_metadata(scene, whole, job.tracer, job.format);
+    image::Metadata metadata = job::whole_frame(scene, job.tracer).metadata(job::name_of(job.write.exr_format));
     if (!job.columns.empty()) metadata.set("strata:columns", job.columns_text);
     return metadata;
 }
+
+image::PictureShape frame_shape(const Job& job) { return {job.width, job.height, 0, 0, job.width, job.height}; }
 
 }  // namespace strata::tools::animate

@@ -11,14 +11,17 @@
 #include "tools/animate/range.h"
 #include "tools/cli/scene_argument.h"
 #include "tools/job/column_settings.h"
+#include "tools/job/picture_job.h"
 
 namespace strata::tools::animate {
 
-// The options as typed; empty where there is none.
-struct AnimateRequest {
-    cli::SceneArgument scene;
+// The options; empty where there is none.
+struct Request {
     std::vector<std::string> outputs;
-    std::string frames, columns, left, right, tracer = "fast", simd, format, threads = "0";
+    std::string frames, columns, left, right;
+    integrate::Tracer tracer = integrate::Tracer::fast;
+    image::ExrFormat format = image::ExrFormat::half;
+    int threads = 0;
     bool overwrite = false, quiet = false;
 };
 
@@ -28,7 +31,7 @@ struct FrameOutput {
     bool is_scratch = false;  // for a film alone: its own, in a FramesFolder, replaced and removed
 };
 
-struct AnimateJob {
+struct Job {
     scene::Scene scene;
     std::vector<job::ColumnSettings> columns;  // side by side, with labels; empty: the scene alone
     std::string columns_text;                  // all of them as typed
@@ -37,7 +40,7 @@ struct AnimateJob {
     std::vector<std::filesystem::path> films;
     std::size_t film_source = 0;  // which of `frames` films are made of
     image::WriteOptions write;
-    std::string tracer, format;
+    integrate::Tracer tracer = integrate::Tracer::fast;
     int threads = 0;
     int width = 0, height = 0;  // of a frame's file
     bool overwrite = false, quiet = false;
@@ -45,20 +48,20 @@ struct AnimateJob {
 
 // Throws UsageError or SceneError for what cannot be asked for, ImageError for outputs that cannot be written,
 // ProcessError when ffmpeg is wanted and missing.
-AnimateJob prepare_animation(const AnimateRequest& request);
+Job prepare_animation(const cli::LoadedScene& loaded, const Request& request);
 
 // Whether films are made of frames that nobody asked for.
-inline bool has_scratch_frames(const AnimateJob& job) {
-    return !job.films.empty() && job.film_source == job.frames.size();
-}
+inline bool has_scratch_frames(const Job& job) { return !job.films.empty() && job.film_source == job.frames.size(); }
 
 // Puts these into a folder.
-void add_scratch_frames(AnimateJob& job, const std::filesystem::path& folder);
+void add_scratch_frames(Job& job, const std::filesystem::path& folder);
 
-// The scenes of a frame's pictures, one a column.
-std::vector<scene::Scene> frame_scenes(const AnimateJob& job, int frame);
+// A frame's pictures, one a column.
+std::vector<job::PictureJob> frame_pictures(const Job& job, int frame);
 
 // What a frame's file says of itself.
-image::Metadata frame_metadata(const AnimateJob& job, int frame);
+image::Metadata frame_metadata(const Job& job, int frame);
+
+image::PictureShape frame_shape(const Job& job);
 
 }  // namespace strata::tools::animate

@@ -76,10 +76,10 @@ void check_comparable(const EarlierRun& earlier, const Plan& plan) {
         const EarlierCase* then = find_case(earlier, what.id());
         if (then == nullptr) continue;
         if (then->mark != what.mark()) {
-            refuse(earlier.file, fmt::format("its '{}' is another scene or other pixels than this run's (made with "
-                                             "--quick, --whole or --rays, or by another version); allowed: a file "
-                                             "of the same scenes and options",
-                                             what.id()));
+            refuse(earlier.file,
+                   fmt::format("its '{}' is another scene or other pixels than this run's (made with --quick, --whole "
+                               "or --rays, or by another version); allowed: a file of the same scenes and options",
+                               what.id()));
         }
         ++common;
     }

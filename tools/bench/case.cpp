@@ -7,12 +7,6 @@
 
 namespace strata::tools::bench {
 
-namespace {
-
-const char* tracer_word(integrate::Tracer tracer) { return tracer == integrate::Tracer::fast ? "fast" : "reference"; }
-
-}  // namespace
-
 std::string Case::id() const {
     std::string text = fmt::format("{} {}x{} N={}", scene_name, scene.film.width, scene.film.height, scene.sampling.N);
     if (tracer == integrate::Tracer::reference) text += " reference";
@@ -23,7 +17,7 @@ std::string Case::id() const {
 std::string Case::mark() const {
     std::uint64_t sum = noise::mix64(static_cast<std::uint64_t>(threads));
     for (const film::Rect& window : subset.windows) {
-        sum = noise::mix64(sum + std::stoull(job::settings_mark(scene, window, tracer_word(tracer)), nullptr, 16));
+        sum = noise::mix64(sum + std::stoull(job::settings_mark({scene, window, tracer}), nullptr, 16));
     }
     return fmt::format("{:016x}", sum);
 }

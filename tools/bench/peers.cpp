@@ -78,8 +78,7 @@ void Peers::find_programs() {
     } else {
         missing_.emplace_back(
             "Embree was not there when strata was built: Debian has it in the package libembree-dev; tools/strata "
-            "bench "
-            "--peers installs it, if it may, and builds with it");
+            "bench --peers installs it, if it may, and builds with it");
     }
 }
 

@@ -1,14 +1,12 @@
 #include "tools/bench/plan.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "src/parallel/processors.h"
-#include "src/scene/key_text.h"
-#include "src/scene/suggest.h"
 #include "tools/bench/variants.h"
+#include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
 
 namespace strata::tools::bench {
@@ -229,22 +227,12 @@ std::vector<Section> parse_sections(const std::string& text) {
     std::vector<std::string> known;
     for (const SectionName& name : section_names()) known.emplace_back(name.name);
     std::vector<Section> sections;
-    for (std::size_t start = 0; start <= text.size();) {
-        const std::size_t end = std::min(text.find(',', start), text.size());
-        const std::string word = text.substr(start, end - start);
-        const auto found = std::ranges::find(known, word);
-        if (found == known.end()) {
-            const auto near = scene::nearest(word, known);
-            throw cli::UsageError(fmt::format("--only: '{}' is no section, allowed: {}{}", scene::excerpt(word),
-                                              fmt::join(known, ", "),
-                                              near ? fmt::format("; did you mean '{}'?", *near) : ""));
-        }
-        const Section section = section_names()[static_cast<std::size_t>(found - known.begin())].section;
+    for (const std::size_t i : cli::parse_names("--only", "section", text, known)) {
+        const Section section = section_names()[i].section;
         if (std::ranges::find(sections, section) != sections.end()) {
-            throw cli::UsageError(fmt::format("--only: '{}' is named twice", word));
+            throw cli::UsageError(fmt::format("--only: '{}' is named twice", known[i]));
         }
         sections.push_back(section);
-        start = end + 1;
     }
     return sections;
 }

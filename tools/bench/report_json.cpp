@@ -3,7 +3,8 @@
 #include "noise/simd_target.h"
 #include "src/scene/enum_names.h"
 #include "tools/bench/report.h"
-#include "tools/cli/scene_argument.h"
+#include "tools/cli/shared_options.h"
+#include "tools/report/folder.h"
 #include "tools/report/json.h"
 #include "tools/report/machine.h"
 
@@ -156,11 +157,7 @@ void write_report(const std::filesystem::path& folder, const Results& results, c
                   const std::vector<Comparison>& earlier, cli::PlannedFiles& files) {
     files.write(folder / "bench.json", json_report(results, figures, earlier));
     files.write(folder / "bench.txt", text_report(results, figures, earlier));
-    const report::Plot plot = plot_report(results);
-    if (plot.panels.empty()) return;
-    for (const char* name : {"bench.png", "bench.svg"}) {
-        files.write_made(folder / name, [&] { return report::draw_plot(plot, name); });
-    }
+    report::write_plots(plot_report(results), folder, "bench", files);
 }
 
 }  // namespace strata::tools::bench

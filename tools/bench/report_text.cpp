@@ -5,15 +5,11 @@
 #include "noise/simd_target.h"
 #include "tools/bench/report.h"
 #include "tools/report/machine.h"
+#include "tools/report/text.h"
 
 namespace strata::tools::bench {
 
 namespace {
-
-std::string scaled(std::uint64_t count) {
-    const auto value = static_cast<double>(count);
-    return value >= 1e6 ? fmt::format("{:.1f} M", value / 1e6) : fmt::format("{:.1f} k", value / 1e3);
-}
 
 std::string share_text(const Measurement& m) {
     double total = 0;
@@ -37,7 +33,7 @@ std::string cases_table(const Results& results) {
                                    "ns/ray", "median", "evals/ray", "steps/ray", "ns/eval", shares ? "  time / %" : "");
     for (const Measurement& m : results.measurements) {
         text += fmt::format("{:<{}}  {:>9}  {:>8.4g}  {:>8.4g}  {:>9.4g}  {:>9.4g}  {:>7.3g}", m.what.id(), width,
-                            scaled(m.counters.rays), m.ns_a_ray(Pick::least), m.ns_a_ray(Pick::median),
+                            report::scaled(m.rays()), m.ns_a_ray(Pick::least), m.ns_a_ray(Pick::median),
                             m.evaluations_a_ray(), m.steps_a_ray(), m.ns_an_evaluation(Pick::least));
         text += shares ? fmt::format("  {}\n", share_text(m)) : "\n";
     }

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "noise/simd_target.h"
 #include "src/image/format.h"
 #include "src/image/image_error.h"
 #include "src/image/metadata.h"
@@ -22,6 +21,7 @@
 #include "src/scene/typed_number.h"
 #include "src/scene/validate.h"
 #include "tools/cli/errors.h"
+#include "tools/cli/shared_options.h"
 #include "tools/cli/standard_output.h"
 #include "tools/cli/stream_input.h"
 
@@ -72,8 +72,8 @@ LoadedScene from_picture(const std::filesystem::path& path, const std::string& s
     // The scene may still be right, and is how the picture is made anew.
     if (image::read_facts(path).integrity == image::Integrity::damaged) {
         print_error(
-            fmt::format("warning: {} is damaged: its bytes are not those that were written, and what it says of "
-                        "its scene may be wrong",
+            fmt::format("warning: {} is damaged: its bytes are not those that were written, and what it says of its "
+                        "scene may be wrong",
                         source));
     }
     LoadedScene loaded;
@@ -120,24 +120,16 @@ constexpr std::array<KeyOption, 9> kKeyOptions{{
     {"--tone", "film.tone", "NAME", "Tone curve of PNG, TIFF and JPEG: none, reinhard or agx"},
 }};
 
-// "--seed" of "--seed", "-N" of "-N,--samples".
-std::string shown_name(const KeyOption& option) {
-    const std::string_view names = option.names;
-    return std::string(names.substr(0, names.find(',')));
-}
-
 }  // namespace
 
 void SceneArgument::add_changes(Command& command) {
     command
-        .add_option("--set", sets_,
+        .add_option("--set", sets_, "KEY=VALUE",
                     "Replace any scene key: --set camera.fov_deg=35 (a TOML value, words without quotes; may be "
                     "repeated; `strata scenes NAME` explains the keys)")
-        ->type_name("KEY=VALUE")
         ->repeated();
-    command
-        .add_option("--size", size_, "Frame in pixels, 1 to 65536 a side; default the scene's film.width, film.height")
-        ->type_name("WxH");
+    command.add_option("--size", size_, "WxH",
+                       "Frame in pixels, 1 to 65536 a side; default the scene's film.width, film.height");
 }
 
 bool SceneArgument::size_given() const {
@@ -148,14 +140,14 @@ bool SceneArgument::size_given() const {
 }
 
 void SceneArgument::add_scene_to(Command& command, const std::string& description) {
-    command.add_option("SCENE", scene_, description)->required();
+    command.add_option("SCENE", scene_, "", description)->required();
     add_changes(command);
 }
 
 void SceneArgument::add_to(Command& command, const char* name, std::span<const std::string_view> own) {
     command
         .add_option(
-            name, scene_,
+            name, scene_, "",
             "A scene file, a built-in scene (`strata scenes`), or a picture that strata wrote; - reads standard input")
         ->capture_default_str();
     add_changes(command);
@@ -163,10 +155,8 @@ void SceneArgument::add_to(Command& command, const char* name, std::span<const s
     for (std::size_t i = 0; i < kKeyOptions.size(); ++i) {
         const KeyOption& option = kKeyOptions[i];
         if (std::ranges::find(own, option.key) != own.end()) continue;
-        command
-            .add_option(option.names, key_values_[i],
-                        fmt::format("{}; default the scene's {}", option.meaning, option.key))
-            ->type_name(option.type);
+        command.add_option(option.names, key_values_[i], option.type,
+                           fmt::format("{}; default the scene's {}", option.meaning, option.key));
     }
 }
 
@@ -218,19 +208,10 @@ LoadedScene SceneArgument::load() const {
     for (std::size_t i = 0; i < key_values_.size(); ++i) {
         if (!key_values_[i]) continue;
         scene::apply_override(scene, fmt::format("{}={}", kKeyOptions[i].key, *key_values_[i]),
-                              fmt::format("{} {}", shown_name(kKeyOptions[i]), scene::excerpt(*key_values_[i])));
+                              fmt::format("{} {}", shown_name(kKeyOptions[i].names), scene::excerpt(*key_values_[i])));
     }
     scene::validate(scene, loaded.source);
     return loaded;
-}
-
-int parse_integer(const char* option, const std::string& text, int least, int most) {
-    const auto value = parse_integers<1>(text, ',');
-    if (!value || (*value)[0] < least || (*value)[0] > most) {
-        throw UsageError(
-            fmt::format("{} {}: allowed: a whole number, {} to {}", option, scene::excerpt(text), least, most));
-    }
-    return (*value)[0];
 }
 
 film::Rect parse_crop(const std::string& origin, const std::string& text, const scene::Film& film) {
@@ -255,6 +236,10 @@ film::Rect window_of(const std::string& crop, const LoadedScene& loaded) {
     return {across.begin, down.begin, across.end, down.end};
 }
 
+integrate::Tracer tracer_of(const std::optional<integrate::Tracer>& given, const LoadedScene& loaded) {
+    return given ? *given : parse_tracer(loaded.tracer.value_or("fast"));
+}
+
 glm::ivec2 parse_pixel(const std::string& text, const scene::Film& film) {
     const auto p = parse_integers<2>(text, ',');
     if (!p || (*p)[0] < 0 || (*p)[0] >= film.width || (*p)[1] < 0 || (*p)[1] >= film.height) {
@@ -262,20 +247,6 @@ glm::ivec2 parse_pixel(const std::string& text, const scene::Film& film) {
                                      film.width, film.height));
     }
     return {(*p)[0], (*p)[1]};
-}
-
-integrate::Tracer parse_tracer(const std::string& name) {
-    if (name == "fast") return integrate::Tracer::fast;
-    if (name == "reference") return integrate::Tracer::reference;
-    throw UsageError(fmt::format("--tracer {}: allowed: fast, reference", scene::excerpt(name)));
-}
-
-const char* name_of(integrate::Tracer tracer) { return tracer == integrate::Tracer::fast ? "fast" : "reference"; }
-
-void use_simd_target(const std::string& name) {
-    if (noise::pin_simd_target(name)) return;
-    throw UsageError(fmt::format("--simd {}: allowed on this machine: {}", scene::excerpt(name),
-                                 fmt::join(noise::simd_targets(), ", ")));
 }
 
 }  // namespace strata::tools::cli

@@ -51,9 +51,6 @@ class SceneArgument {
     std::vector<std::optional<std::string>> key_values_;  // one a KeyOption, as typed
 };
 
-// An integer of [least,most] given to an option. Throws UsageError.
-int parse_integer(const char* option, const std::string& text, int least, int most);
-
 // "x0,y0,x1,y1", half-open, inside the frame. origin is what the text was given to, for the message. Throws UsageError.
 film::Rect parse_crop(const std::string& origin, const std::string& text, const scene::Film& film);
 
@@ -61,15 +58,10 @@ film::Rect parse_crop(const std::string& origin, const std::string& text, const 
 // shows the same part of a frame of another size; else all. Throws UsageError.
 film::Rect window_of(const std::string& crop, const LoadedScene& loaded);
 
+// --tracer if given; else the one that the picture recorded; else fast. Throws UsageError.
+integrate::Tracer tracer_of(const std::optional<integrate::Tracer>& given, const LoadedScene& loaded);
+
 // "x,y" inside the frame. Throws UsageError.
 glm::ivec2 parse_pixel(const std::string& text, const scene::Film& film);
-
-// "fast" or "reference". Throws UsageError.
-integrate::Tracer parse_tracer(const std::string& name);
-
-const char* name_of(integrate::Tracer tracer);
-
-// Pins the SIMD target. Throws UsageError for one that is not here.
-void use_simd_target(const std::string& name);
 
 }  // namespace strata::tools::cli

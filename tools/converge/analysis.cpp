@@ -16,9 +16,9 @@ struct Columns {
     std::vector<double> samples, seconds, rmse, relative_ci;
 };
 
-Columns columns_of(const ConvergeSeries& series, int least_N) {
+Columns columns_of(const Series& series, int least_N) {
     Columns columns;
-    for (const ConvergePoint* point : series.points) {
+    for (const Point* point : series.points) {
         if (point->limit != Limit::none || point->N < least_N) continue;
         const RootMean rmse = point->rmse();
         columns.samples.push_back(1.0 * point->N * point->N);
@@ -29,7 +29,7 @@ Columns columns_of(const ConvergeSeries& series, int least_N) {
     return columns;
 }
 
-void fit(ConvergeSeries& series) {
+void fit(Series& series) {
     // One sample has no strata: its error tells nothing of how the error falls, if there are others.
     Columns columns = columns_of(series, 2);
     if (columns.rmse.size() < kFewestOfAFit) columns = columns_of(series, 1);
@@ -41,18 +41,18 @@ void fit(ConvergeSeries& series) {
     }
 }
 
-const ConvergeSeries* paper_series(const std::vector<ConvergeSeries>& all, const ConvergeSeries& like) {
-    const auto found = std::ranges::find_if(all, [&](const ConvergeSeries& other) {
+const Series* paper_series(const std::vector<Series>& all, const Series& like) {
+    const auto found = std::ranges::find_if(all, [&](const Series& other) {
         return other.estimator == EstimatorKind::stratified && other.m == like.m && other.tracer == like.tracer;
     });
     return found == all.end() ? nullptr : &*found;
 }
 
-std::optional<double> error_ratio(const ConvergeSeries& series, const ConvergeSeries& paper) {
+std::optional<double> error_ratio(const Series& series, const Series& paper) {
     double logarithms = 0;
     int count = 0;
-    for (const ConvergePoint* mine : series.points) {
-        for (const ConvergePoint* other : paper.points) {
+    for (const Point* mine : series.points) {
+        for (const Point* other : paper.points) {
             const bool comparable =
                 mine->N == other->N && mine->N >= 2 && mine->limit == Limit::none && other->limit == Limit::none;
             if (!comparable) continue;
@@ -64,10 +64,10 @@ std::optional<double> error_ratio(const ConvergeSeries& series, const ConvergeSe
     return std::exp(logarithms / count);
 }
 
-std::vector<ConvergeSeries> group(const Experiment& experiment) {
-    std::vector<ConvergeSeries> all;
-    for (const ConvergePoint& point : experiment.points) {
-        auto found = std::ranges::find_if(all, [&](const ConvergeSeries& s) {
+std::vector<Series> group(const Experiment& experiment) {
+    std::vector<Series> all;
+    for (const Point& point : experiment.points) {
+        auto found = std::ranges::find_if(all, [&](const Series& s) {
             return s.estimator == point.estimator && s.m == point.m && s.tracer == point.tracer;
         });
         if (found == all.end()) {
@@ -83,15 +83,15 @@ std::vector<ConvergeSeries> group(const Experiment& experiment) {
 }
 
 // Not where float rounding is all the error, since rounding is a bias of its own.
-bool testable(const Experiment& experiment, const ConvergePoint& point) {
+bool testable(const Experiment& experiment, const Point& point) {
     return unbiased(point.estimator) && point.seeds() >= 2 && point.limit != Limit::rounding &&
            experiment.reference_of(point).exact;
 }
 
 void test_bias(const Experiment& experiment, Analysis& analysis) {
-    for (const ConvergePoint& point : experiment.points) {
+    for (const Point& point : experiment.points) {
         if (!testable(experiment, point)) continue;
-        const ConvergeReference& reference = experiment.reference_of(point);
+        const Reference& reference = experiment.reference_of(point);
         // Radiance is handed over in floats: half a unit in the last place may be a bias of each sample.
         const double blind = reference.error + reference.root_mean_square * 0x1p-24;
         analysis.tests.push_back({&point, point.errors.z_of_mean(blind), point.errors.z_of_squares(blind), false});
@@ -107,7 +107,7 @@ void test_bias(const Experiment& experiment, Analysis& analysis) {
 
 }  // namespace
 
-std::optional<double> visible_bias(const Experiment& experiment, const ConvergePoint& point) {
+std::optional<double> visible_bias(const Experiment& experiment, const Point& point) {
     if (point.fixed) return point.rmse().value;
     if (point.seeds() < 2) return std::nullopt;
     const bool shared = point.estimator == EstimatorKind::shared || point.estimator == EstimatorKind::shared_sobol;
@@ -123,9 +123,9 @@ std::optional<double> visible_bias(const Experiment& experiment, const ConvergeP
 Analysis analyse(const Experiment& experiment) {
     Analysis analysis;
     analysis.series = group(experiment);
-    for (ConvergeSeries& series : analysis.series) fit(series);
-    for (ConvergeSeries& series : analysis.series) {
-        const ConvergeSeries* paper = paper_series(analysis.series, series);
+    for (Series& series : analysis.series) fit(series);
+    for (Series& series : analysis.series) {
+        const Series* paper = paper_series(analysis.series, series);
         if (paper == nullptr) continue;
         series.error_ratio = error_ratio(series, *paper);
         for (std::size_t i = 0; i < kTargets.size(); ++i) {

@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <memory>
 
-#include "src/image/compare.h"
 #include "src/integrate/make_image.h"
 #include "src/parallel/processors.h"
 #include "src/render/render.h"
@@ -31,7 +29,7 @@ constexpr double kReport_s = 4;         // for the report and its plots
 
 class Run {
   public:
-    Run(const scene::Scene& scene, const ConvergeSettings& settings, cli::ProgressPrinter& progress,
+    Run(const scene::Scene& scene, const Settings& settings, cli::ProgressPrinter& progress,
         const parallel::CancelToken& cancel)
         : progress_(progress.callback()), cancel_(cancel) {
         all_.settings = settings;
@@ -64,12 +62,10 @@ class Run {
     double reference_cost_s(int largest_N) const;
     bool make_references();
     void measure();
-    void measure(ConvergePoint& point, int round);
-    void compare(ConvergePoint& point, const film::Film& film);
-    void judge(ConvergePoint& point) const;
+    void measure(Point& point, int round);
     void show_progress(double done_s, double total_s);
     render::RenderResult render(const Combination& combination, int N, std::uint64_t seed);
-    const Combination& combination_of(const ConvergePoint& point) const;
+    const Combination& combination_of(const Point& point) const;
     int reference_N(int largest) const { return std::clamp(2 * largest, 16, 64); }
     std::vector<int> reference_orders() const;
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
@@ -162,7 +158,7 @@ double Run::reference_cost_s(int largest_N) const {
 }
 
 void Run::fit_budget() {
-    ConvergeSettings& settings = all_.settings;
+    Settings& settings = all_.settings;
     if (settings.budget_s <= 0) return;
     const double available_s = kPlannedShare * (settings.budget_s - seconds() - kReport_s);
     const auto plan = plan_budget(
@@ -171,8 +167,8 @@ void Run::fit_budget() {
     if (!plan) {
         const int least = settings.Ns.front();
         throw cli::UsageError(fmt::format(
-            "--budget: too short: N = {} alone, with two seeds, takes about {}; allowed: more "
-            "time, a smaller --size, fewer estimators or orders",
+            "--budget: too short: N = {} alone, with two seeds, takes about {}; allowed: more time, a smaller --size, "
+            "fewer estimators or orders",
             least, cli::duration_text((reference_cost_s(least) + 2 * cost_s(least)) / kPlannedShare + kReport_s)));
     }
     all_.dropped_Ns.assign(settings.Ns.begin() + static_cast<std::ptrdiff_t>(plan->Ns.size()), settings.Ns.end());
@@ -190,31 +186,13 @@ bool Run::make_references() {
     return true;
 }
 
-const Run::Combination& Run::combination_of(const ConvergePoint& point) const {
+const Run::Combination& Run::combination_of(const Point& point) const {
     return *std::ranges::find_if(combinations_, [&](const Combination& c) {
         return c.estimator == point.estimator && c.m == point.m && all_.settings.tracers[c.tracer] == point.tracer;
     });
 }
 
-void Run::compare(ConvergePoint& point, const film::Film& film) {
-    const ConvergeReference& reference = all_.reference_of(point);
-    image::Picture picture = image::make_picture(window_.width(), window_.height());
-    std::vector<double> error;
-    for (std::size_t i = 0; i < film.pixels().size(); ++i) {
-        const glm::vec3& pixel = film.pixels()[i];
-        for (int c = 0; c < 3; ++c) picture.rgb[3 * i + static_cast<std::size_t>(c)] = pixel[c];
-        const glm::dvec3 wide(pixel);
-        error.push_back((wide.x + wide.y + wide.z) / 3 - reference.grey[i]);
-    }
-    const image::Comparison comparison = image::compare(picture, reference.picture);
-    point.mean_squares.push_back(comparison.rmse * comparison.rmse);
-    point.relative.push_back(comparison.relative_rmse);
-    point.largest.push_back(comparison.max_abs);
-    point.percentile99.push_back(comparison.percentile99);
-    point.errors.add(error);
-}
-
-void Run::measure(ConvergePoint& point, int round) {
+void Run::measure(Point& point, int round) {
     const int wanted = std::max(all_.settings.repeats, point.fixed ? 1 : all_.settings.seeds);
     if (round >= wanted) return;
     const Combination& combination = combination_of(point);
@@ -234,7 +212,7 @@ void Run::measure(ConvergePoint& point, int round) {
     point.seconds.push_back(total_s / renders);
     point.cpu_seconds.push_back(total_cpu_s / renders);
     point.counters = result.counters;
-    if (round < all_.settings.seeds && !(point.fixed && round > 0)) compare(point, result.film);
+    if (round < all_.settings.seeds && !(point.fixed && round > 0)) point.add(result.film, all_.reference_of(point));
 }
 
 void Run::show_progress(double done_s, double total_s) {
@@ -246,7 +224,7 @@ void Run::measure() {
     for (const int N : all_.settings.Ns) {
         for (const Combination& c : combinations_) {
             if (c.estimator == EstimatorKind::none && N != all_.settings.Ns.front()) continue;
-            ConvergePoint point;
+            Point point;
             point.estimator = c.estimator;
             point.m = c.m;
             point.fixed = deterministic(c.estimator, all_.scene);
@@ -262,7 +240,7 @@ void Run::measure() {
     for (const int N : all_.settings.Ns) round_s += cost_s(N);
     for (int round = 0; round < rounds && !cancel_.requested(); ++round) {
         double done_s = round * round_s;
-        for (ConvergePoint& point : all_.points) {
+        for (Point& point : all_.points) {
             if (cancel_.requested()) break;
             measure(point, round);
             done_s += kOverhead_s + combination_of(point).second_a_sample * point.N * point.N;
@@ -271,25 +249,13 @@ void Run::measure() {
     }
 }
 
-void Run::judge(ConvergePoint& point) const {
-    constexpr double kLimited = 3;
-    constexpr double kRounding = 4 * 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
-    const ConvergeReference& reference = all_.reference_of(point);
-    const double rmse = point.rmse().value;
-    if (rmse <= kRounding * reference.root_mean_square) {
-        point.limit = Limit::rounding;
-    } else if (rmse <= kLimited * reference.error) {
-        point.limit = Limit::reference;
-    }
-}
-
 Experiment Run::run() {
     combine();
     warm_up();
     if (!cancel_.requested()) fit_budget();
     if (!cancel_.requested() && make_references()) measure();
-    std::erase_if(all_.points, [](const ConvergePoint& point) { return point.seeds() == 0; });
-    for (ConvergePoint& point : all_.points) judge(point);
+    std::erase_if(all_.points, [](const Point& point) { return point.seeds() == 0; });
+    for (Point& point : all_.points) point.limit = limit_of(point, all_.reference_of(point));
     all_.interrupted = cancel_.requested();
     all_.seconds = seconds();
     return std::move(all_);
@@ -297,7 +263,7 @@ Experiment Run::run() {
 
 }  // namespace
 
-Experiment run_experiment(const scene::Scene& scene, const ConvergeSettings& settings, cli::ProgressPrinter& progress,
+Experiment run_experiment(const scene::Scene& scene, const Settings& settings, cli::ProgressPrinter& progress,
                           const parallel::CancelToken& cancel) {
     return Run(scene, settings, progress, cancel).run();
 }

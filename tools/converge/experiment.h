@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "src/film/film.h"
 #include "src/image/picture.h"
 #include "src/integrate/surface_image.h"
 #include "src/parallel/cancel.h"
@@ -15,7 +16,7 @@
 namespace strata::tools::converge {
 
 // What is to be measured.
-struct ConvergeSettings {
+struct Settings {
     std::vector<scene::EstimatorKind> estimators;
     std::vector<int> orders;
     std::vector<int> Ns;  // ascending
@@ -28,8 +29,19 @@ struct ConvergeSettings {
 
 enum class Limit { none, reference, rounding };
 
+// The picture that one order's renders should arrive at.
+struct Reference {
+    int m = 0;
+    image::Picture picture;       // as floats, for the comparison
+    std::vector<double> grey;     // mean of the channels, one a pixel
+    double error = 0;             // RMSE of an engine reference; bound of an exact one
+    double root_mean_square = 0;  // of its values
+    bool exact = false;
+    std::string how;
+};
+
 // Renders of one estimator, order, tracer and N.
-struct ConvergePoint {
+struct Point {
     scene::EstimatorKind estimator{};
     int m = 0;
     integrate::Tracer tracer{};
@@ -41,34 +53,30 @@ struct ConvergePoint {
     std::vector<double> mean_squares, relative, largest, percentile99;  // one a seed
     PixelErrors errors;
 
+    // The picture of one more seed.
+    void add(const film::Film& film, const Reference& reference);
+
     int seeds() const { return errors.seeds(); }
     RootMean rmse() const;
     Limit limit = Limit::none;
 };
 
-// The picture that one order's renders should arrive at.
-struct ConvergeReference {
-    int m = 0;
-    image::Picture picture;       // as floats, for the comparison
-    std::vector<double> grey;     // mean of the channels, one a pixel
-    double error = 0;             // RMSE of an engine reference; bound of an exact one
-    double root_mean_square = 0;  // of its values
-    bool exact = false;
-    std::string how;
-};
-
 struct Experiment {
-    ConvergeSettings settings;  // as carried out: N and seeds cut to the budget, threads pinned
+    Settings settings;  // as carried out: N and seeds cut to the budget, threads pinned
     scene::Scene scene;
-    std::vector<ConvergeReference> references;
-    std::vector<ConvergePoint> points;
+    std::vector<Reference> references;
+    std::vector<Point> points;
     std::uint64_t first_seed = 0;
     double seconds = 0;
     std::vector<int> dropped_Ns;  // for the budget
     bool interrupted = false;     // some points have fewer seeds, or none
 
-    const ConvergeReference& reference_of(const ConvergePoint& point) const;
+    const Reference& reference_of(const Point& point) const;
 };
+
+// What a point's error cannot be told apart from: three times the reference's own, or the rounding of radiance to
+// floats.
+Limit limit_of(const Point& point, const Reference& reference);
 
 // The order of the filter that the estimator asked for order m applies.
 int order_of(scene::EstimatorKind kind, int m);
@@ -82,7 +90,7 @@ bool deterministic(scene::EstimatorKind kind, const scene::Scene& scene);
 
 // Measures a valid scene's frame. Throws UsageError when the budget does not suffice for anything. Points without any
 // render have been removed.
-Experiment run_experiment(const scene::Scene& scene, const ConvergeSettings& settings, cli::ProgressPrinter& progress,
+Experiment run_experiment(const scene::Scene& scene, const Settings& settings, cli::ProgressPrinter& progress,
                           const parallel::CancelToken& cancel);
 
 }  // namespace strata::tools::converge

@@ -19,7 +19,7 @@ constexpr std::uint64_t kFirstHalf = 0x5265666572656e63u;
 
 film::Rect frame_of(const scene::Scene& scene) { return {0, 0, scene.film.width, scene.film.height}; }
 
-void finish(ConvergeReference& reference, const std::vector<glm::dvec3>& pixels) {
+void finish(Reference& reference, const std::vector<glm::dvec3>& pixels) {
     double squares = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const glm::dvec3& pixel = pixels[i];
@@ -31,8 +31,8 @@ void finish(ConvergeReference& reference, const std::vector<glm::dvec3>& pixels)
     reference.root_mean_square = std::sqrt(squares / static_cast<double>(pixels.size()));
 }
 
-ConvergeReference of_truth(const scene::Scene& scene, int m, const Truth& truth) {
-    ConvergeReference reference;
+Reference of_truth(const scene::Scene& scene, int m, const Truth& truth) {
+    Reference reference;
     reference.m = m;
     reference.picture = image::make_picture(scene.film.width, scene.film.height);
     reference.exact = true;
@@ -51,8 +51,8 @@ bool has_exact_reference(const scene::Scene& scene, int m) {
     return has_exact_picture(scene) && exact_picture(scene, m, {0, 0, 1, 1}).has_value();
 }
 
-std::optional<ConvergeReference> make_reference(const scene::Scene& scene, int m, int N, int threads,
-                                                const parallel::CancelToken& cancel) {
+std::optional<Reference> make_reference(const scene::Scene& scene, int m, int N, int threads,
+                                        const parallel::CancelToken& cancel) {
     const film::Rect window = frame_of(scene);
     if (const auto truth = exact_picture(scene, m, window)) return of_truth(scene, m, *truth);
     const auto image_function = integrate::make_image(scene);
@@ -72,7 +72,7 @@ std::optional<ConvergeReference> make_reference(const scene::Scene& scene, int m
         if (result.render.cancelled) return std::nullopt;
         half[i] = std::move(result.render.film);
     }
-    ConvergeReference reference;
+    Reference reference;
     reference.m = m;
     reference.picture = image::make_picture(window.width(), window.height());
     std::vector<glm::dvec3> pixels;

@@ -11,31 +11,31 @@
 
 namespace strata::tools::converge {
 
-struct ConvergeReport {
+struct Report {
     std::string function;  // the scene's name
     const Experiment& experiment;
     const Analysis& analysis;
 };
 
 // A row a point, and a first line with the columns' names.
-std::string converge_csv(const ConvergeReport& report);
+std::string converge_csv(const Report& report);
 
 // The same rows, with slopes, times to errors, tests of bias, references and the machine.
-std::string converge_json(const ConvergeReport& report);
+std::string converge_json(const Report& report);
 
 // A page of Markdown in plain words.
-std::string converge_summary(const ConvergeReport& report);
+std::string converge_summary(const Report& report);
 
 // Error against samples or time, a panel for each order and tracer: points, fitted lines, and dotted lines of the
 // slopes that theory knows.
 enum class PlotAgainst { samples, seconds };
-report::Plot converge_plot(const ConvergeReport& report, PlotAgainst against);
+report::Plot converge_plot(const Report& report, PlotAgainst against);
 
 // The files that write_report() will put into a folder.
 std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder);
 
 // Those, which are planned; each fails alone.
-void write_report(const ConvergeReport& report, const std::filesystem::path& folder, cli::PlannedFiles& files);
+void write_report(const Report& report, const std::filesystem::path& folder, cli::PlannedFiles& files);
 
 // "", "reference" or "rounding".
 const char* limit_name(Limit limit);

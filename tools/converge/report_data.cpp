@@ -6,7 +6,7 @@
 #include "noise/simd_target.h"
 #include "src/scene/enum_names.h"
 #include "src/scene/printer.h"
-#include "tools/cli/scene_argument.h"
+#include "tools/cli/shared_options.h"
 #include "tools/converge/report.h"
 #include "tools/report/csv.h"
 #include "tools/report/json.h"
@@ -26,7 +26,7 @@ double mean(const std::vector<double>& values) {
     return sum / static_cast<double>(values.size());
 }
 
-Json row_of(const ConvergeReport& report, const ConvergePoint& point) {
+Json row_of(const Report& report, const Point& point) {
     const RootMean rmse = point.rmse();
     const std::optional<double> bias = visible_bias(report.experiment, point);
     const report::Spread seconds = report::spread_of(point.seconds);
@@ -66,7 +66,7 @@ std::string csv_text(const Json& value) {
 
 Json slopes_json(const Analysis& analysis) {
     Json slopes = Json::array();
-    for (const ConvergeSeries& series : analysis.series) {
+    for (const Series& series : analysis.series) {
         const auto add = [&](const char* against, const std::optional<PowerLaw>& law) {
             if (!law) return;
             slopes.push_back({{"estimator", scene::name_of(series.estimator)},
@@ -91,7 +91,7 @@ const char* reach_name(Reach reach) {
 
 Json times_json(const Analysis& analysis) {
     Json times = Json::array();
-    for (const ConvergeSeries& series : analysis.series) {
+    for (const Series& series : analysis.series) {
         for (std::size_t i = 0; i < kTargets.size(); ++i) {
             if (!series.times[i]) continue;
             Json entry{{"estimator", scene::name_of(series.estimator)}, {"m", series.m},
@@ -123,7 +123,7 @@ Json bias_json(const Analysis& analysis) {
 
 Json references_json(const Experiment& experiment) {
     Json references = Json::array();
-    for (const ConvergeReference& reference : experiment.references) {
+    for (const Reference& reference : experiment.references) {
         references.push_back({{"m", reference.m},
                               {"exact", reference.exact},
                               {"error", reference.error},
@@ -135,9 +135,9 @@ Json references_json(const Experiment& experiment) {
 
 }  // namespace
 
-std::string converge_csv(const ConvergeReport& report) {
+std::string converge_csv(const Report& report) {
     std::string text;
-    for (const ConvergePoint& point : report.experiment.points) {
+    for (const Point& point : report.experiment.points) {
         const Json row = row_of(report, point);
         std::vector<std::string> names;
         std::vector<std::string> values;
@@ -151,10 +151,10 @@ std::string converge_csv(const ConvergeReport& report) {
     return text;
 }
 
-std::string converge_json(const ConvergeReport& report) {
+std::string converge_json(const Report& report) {
     const Experiment& experiment = report.experiment;
     Json rows = Json::array();
-    for (const ConvergePoint& point : experiment.points) rows.push_back(row_of(report, point));
+    for (const Point& point : experiment.points) rows.push_back(row_of(report, point));
     const Json json{{"function", report.function},
                     {"version", STRATA_VERSION},
                     {"width", experiment.scene.film.width},

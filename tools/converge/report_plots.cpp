@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "src/scene/enum_names.h"
-#include "tools/cli/scene_argument.h"
+#include "tools/cli/shared_options.h"
 #include "tools/converge/report.h"
 #include "tools/report/statistics.h"
 
@@ -55,15 +55,15 @@ Look look_of(scene::EstimatorKind kind) {
     return {kBlack, report::PlotShape::dot};
 }
 
-std::string with_slope(const ConvergeSeries& series, const std::optional<PowerLaw>& law) {
+std::string with_slope(const Series& series, const std::optional<PowerLaw>& law) {
     const std::string name(scene::name_of(series.estimator));
     return law ? fmt::format("{}  {:.2f} ± {:.2f}", name, law->slope, law->slope_ci) : name;
 }
 
 class Panel {
   public:
-    Panel(const ConvergeReport& report, PlotAgainst against, int m, integrate::Tracer tracer) : against_(against) {
-        for (const ConvergeSeries& series : report.analysis.series) {
+    Panel(const Report& report, PlotAgainst against, int m, integrate::Tracer tracer) : against_(against) {
+        for (const Series& series : report.analysis.series) {
             if (series.m == m && series.tracer == tracer) add(series);
         }
         if (panel_.series.empty()) return;
@@ -83,11 +83,11 @@ class Panel {
     const report::PlotPanel& panel() const { return panel_; }
 
   private:
-    double x_of(const ConvergePoint& point) const {
+    double x_of(const Point& point) const {
         return against_ == PlotAgainst::samples ? 1.0 * point.N * point.N : report::spread_of(point.cpu_seconds).median;
     }
 
-    void add(const ConvergeSeries& series) {
+    void add(const Series& series) {
         const std::optional<PowerLaw>& law =
             against_ == PlotAgainst::samples ? series.against_samples : series.against_seconds;
         report::PlotSeries points;
@@ -99,11 +99,11 @@ class Panel {
         line.colour = points.colour;
         line.line_width = 1.5;
         // The fit may have left out the first points.
-        const auto usable = std::ranges::count_if(
-            series.points, [](const ConvergePoint* point) { return point->limit == Limit::none; });
+        const auto usable =
+            std::ranges::count_if(series.points, [](const Point* point) { return point->limit == Limit::none; });
         const auto skipped = law ? usable - law->points : 0;
         std::ptrdiff_t fitted = 0;
-        for (const ConvergePoint* point : series.points) {
+        for (const Point* point : series.points) {
             const RootMean rmse = point->rmse();
             if (!(rmse.value > 0) || point->limit == Limit::rounding) continue;
             points.x.push_back(x_of(*point));
@@ -152,14 +152,14 @@ class Panel {
 
 }  // namespace
 
-report::Plot converge_plot(const ConvergeReport& report, PlotAgainst against) {
+report::Plot converge_plot(const Report& report, PlotAgainst against) {
     const Experiment& experiment = report.experiment;
     report::Plot plot;
     plot.title = fmt::format("{}: error against {}, with fitted slopes", report.function,
                              against == PlotAgainst::samples ? "samples" : "time");
     for (const integrate::Tracer tracer : experiment.settings.tracers) {
         std::vector<int> orders;
-        for (const ConvergeSeries& series : report.analysis.series) {
+        for (const Series& series : report.analysis.series) {
             if (std::ranges::find(orders, series.m) == orders.end()) orders.push_back(series.m);
         }
         std::ranges::sort(orders);

@@ -7,7 +7,7 @@
 #include "noise/simd_target.h"
 #include "src/scene/enum_names.h"
 #include "tools/cli/progress_printer.h"
-#include "tools/cli/scene_argument.h"
+#include "tools/cli/shared_options.h"
 #include "tools/converge/report.h"
 #include "tools/report/machine.h"
 
@@ -30,7 +30,7 @@ std::string reach_mark(Reach reach) {
     return reach == Reach::extrapolated ? "~" : reach == Reach::at_first ? "≤ " : "";
 }
 
-std::string time_cell(const ConvergeSeries& series, std::size_t target) {
+std::string time_cell(const Series& series, std::size_t target) {
     if (!series.times[target]) return "-";
     const TimeToError& time = *series.times[target];
     const std::string text = reach_mark(time.reach) + time_text(time.seconds);
@@ -38,27 +38,27 @@ std::string time_cell(const ConvergeSeries& series, std::size_t target) {
     return speed_up ? fmt::format("{} ({:.2g}×)", text, *speed_up) : text;
 }
 
-std::string series_name(const Experiment& experiment, const ConvergeSeries& series) {
+std::string series_name(const Experiment& experiment, const Series& series) {
     std::string name(scene::name_of(series.estimator));
     if (experiment.settings.tracers.size() > 1) name += fmt::format(", {} tracer", cli::name_of(series.tracer));
     return name;
 }
 
 // Of the largest N that says something.
-std::string correlation_text(const ConvergeSeries& series) {
+std::string correlation_text(const Series& series) {
     for (auto point = series.points.rbegin(); point != series.points.rend(); ++point) {
         if ((*point)->limit == Limit::none) return fmt::format("{:.2f}", (*point)->errors.neighbour_correlation());
     }
     return "-";
 }
 
-std::string setting_text(const ConvergeReport& report) {
+std::string setting_text(const Report& report) {
     const Experiment& e = report.experiment;
     std::string text = fmt::format(
-        "`{}`, {} × {} pixels. Errors are of linear radiance against the same filter's picture, over {} seeds from {}. "
+        "`{}`, {} × {} pixels. Errors are of linear radiance against the same filter's picture, over {} seeds from "
+        "{}. "
         "Times are of the CPU, medians of at least {} interleaved renders on {} thread{} of {} ({}); those by the "
-        "clock are in "
-        "the files.\n",
+        "clock are in the files.\n",
         report.function, e.scene.film.width, e.scene.film.height, e.settings.seeds, e.first_seed, e.settings.repeats,
         e.settings.threads, e.settings.threads == 1 ? "" : "s", report::processor_name(), noise::simd_target());
     if (!e.dropped_Ns.empty()) {
@@ -66,7 +66,7 @@ std::string setting_text(const ConvergeReport& report) {
                             e.dropped_Ns.size() > 1 ? fmt::format(" to {}", e.dropped_Ns.back()) : "");
     }
     if (e.interrupted) text += "Interrupted: some points rest on fewer seeds, or are missing.\n";
-    for (const ConvergeReference& reference : e.references) {
+    for (const Reference& reference : e.references) {
         text += fmt::format("Reference for m = {}: {}; {} {:.2g}.\n", reference.m, reference.how,
                             reference.exact ? "no pixel is off by more than" : "its own RMSE, told from the halves, is",
                             reference.error);
@@ -79,9 +79,9 @@ bool is_grid(EstimatorKind kind) {
     return kind == EstimatorKind::none || kind == EstimatorKind::super || kind == EstimatorKind::uniform;
 }
 
-const ConvergeSeries* fastest(const ConvergeReport& report, int m, std::size_t target, bool grids) {
-    const ConvergeSeries* best = nullptr;
-    for (const ConvergeSeries& series : report.analysis.series) {
+const Series* fastest(const Report& report, int m, std::size_t target, bool grids) {
+    const Series* best = nullptr;
+    for (const Series& series : report.analysis.series) {
         if (series.m != m || !series.times[target] || is_grid(series.estimator) != grids) continue;
         if (series.tracer != report.experiment.settings.tracers.front()) continue;
         if (best == nullptr || series.times[target]->seconds < best->times[target]->seconds) best = &series;
@@ -89,9 +89,9 @@ const ConvergeSeries* fastest(const ConvergeReport& report, int m, std::size_t t
     return best;
 }
 
-std::string advice(const ConvergeReport& report, int m, std::size_t target) {
-    const ConvergeSeries* best = fastest(report, m, target, false);
-    const ConvergeSeries* grid = fastest(report, m, target, true);
+std::string advice(const Report& report, int m, std::size_t target) {
+    const Series* best = fastest(report, m, target, false);
+    const Series* grid = fastest(report, m, target, true);
     std::string text = fmt::format("- m = {}, error {}: ", m, target_text(kTargets[target]));
     if (best == nullptr && grid == nullptr) return text + "nothing measured here comes near.\n";
     if (best != nullptr) {
@@ -114,10 +114,10 @@ std::string advice(const ConvergeReport& report, int m, std::size_t target) {
     return text + ".\n";
 }
 
-std::string advice(const ConvergeReport& report) {
+std::string advice(const Report& report) {
     std::string text = "## What to pick\n\n";
     std::vector<int> orders;
-    for (const ConvergeSeries& series : report.analysis.series) {
+    for (const Series& series : report.analysis.series) {
         if (std::ranges::find(orders, series.m) == orders.end()) orders.push_back(series.m);
     }
     std::ranges::sort(orders);
@@ -125,23 +125,26 @@ std::string advice(const ConvergeReport& report) {
         for (std::size_t target = 0; target < kTargets.size(); ++target) text += advice(report, m, target);
     }
     return text +
-           "\nThe least time for the error asked for; where one sample a pixel suffices (≤), any will do. Errors of "
-           "`shared` and `shared-sobol` spread over neighbouring pixels (last column below): at equal RMSE their grain "
-           "is "
-           "coarser. Errors of `super` and `uniform` are the same in every render: they show as patterns, not as "
+           "\nThe least time for the error asked for; where one sample a pixel suffices (≤), any will do. Errors "
+           "of "
+           "`shared` and `shared-sobol` spread over neighbouring pixels (last column below): at equal RMSE their "
+           "grain "
+           "is coarser. Errors of `super` and `uniform` are the same in every render: they show as patterns, not "
+           "as "
            "grain.\n";
 }
 
-std::string table(const ConvergeReport& report) {
+std::string table(const Report& report) {
     std::string text =
         "## Time to reach an error\n\n"
-        "| m | estimator | slope against samples | RMSE / stratified, equal N | 1/64 | 1/256 | 1/1024 | neighbours' "
+        "| m | estimator | slope against samples | RMSE / stratified, equal N | 1/64 | 1/256 | 1/1024 | "
+        "neighbours' "
         "correlation |\n"
         "|---|---|---|---|---|---|---|---|\n";
-    std::vector<const ConvergeSeries*> sorted;
-    for (const ConvergeSeries& series : report.analysis.series) sorted.push_back(&series);
-    std::ranges::stable_sort(sorted, {}, [](const ConvergeSeries* series) { return series->m; });
-    for (const ConvergeSeries* series : sorted) {
+    std::vector<const Series*> sorted;
+    for (const Series& series : report.analysis.series) sorted.push_back(&series);
+    std::ranges::stable_sort(sorted, {}, [](const Series* series) { return series->m; });
+    for (const Series* series : sorted) {
         const auto& law = series->against_samples;
         text += fmt::format("| {} | {} | {} | {} |", series->m, series_name(report.experiment, *series),
                             law ? fmt::format("{:.2f} ± {:.2f}", law->slope, law->slope_ci) : "-",
@@ -151,14 +154,15 @@ std::string table(const ConvergeReport& report) {
         text += fmt::format(" {} |\n", correlation_text(*series));
     }
     return text +
-           "\nIn brackets: the paper's method's time (`stratified`, same order) over this one's. ~: extrapolated along "
-           "the "
-           "fitted slope; ≤: the smallest N is below already. Slopes are of RMSE against N², with 95 % intervals; "
-           "theory "
-           "knows -1/2 for independent samples, -3/4 for strata across an edge, -1 for strata on smooth pictures.\n";
+           "\nIn brackets: the paper's method's time (`stratified`, same order) over this one's. ~: extrapolated "
+           "along "
+           "the fitted slope; ≤: the smallest N is below already. Slopes are of RMSE against N², with 95 % "
+           "intervals; "
+           "theory knows -1/2 for independent samples, -3/4 for strata across an edge, -1 for strata on smooth "
+           "pictures.\n";
 }
 
-std::string bias_text(const ConvergeReport& report) {
+std::string bias_text(const Report& report) {
     const Analysis& analysis = report.analysis;
     if (analysis.tests.empty()) {
         return "Bias was not tested: that takes an exact picture, random samples and two seeds.\n";
@@ -171,23 +175,22 @@ std::string bias_text(const ConvergeReport& report) {
                                 test.z_of_squares);
     }
     std::string text = fmt::format(
-        "Bias: {} points of `stratified`, `random` and `sobol` were tested against the exact picture, in the picture's "
-        "mean "
-        "(|z| ≤ {:.2f}) and pixel by pixel (z ≤ {:.2f}); an unbiased estimator would fail any of them with a "
-        "probability of "
-        "{:.0f} % (Šidák). {}\n",
+        "Bias: {} points of `stratified`, `random` and `sobol` were tested against the exact picture, in the "
+        "picture's "
+        "mean (|z| ≤ {:.2f}) and pixel by pixel (z ≤ {:.2f}); an unbiased estimator would fail any of them with a "
+        "probability of {:.0f} % (Šidák). {}\n",
         analysis.tests.size(), analysis.mean_threshold, analysis.squares_threshold, 100 * analysis.family_level,
         failures.empty() ? "None failed." : "These failed:\n\n" + failures);
     return text;
 }
 
 // The estimators with normalised weights, where their bias stands out of the noise.
-std::string weighted_bias_text(const ConvergeReport& report) {
+std::string weighted_bias_text(const Report& report) {
     std::string text;
-    for (const ConvergeSeries& series : report.analysis.series) {
+    for (const Series& series : report.analysis.series) {
         if (unbiased(series.estimator) || series.points.front()->fixed) continue;
         std::string list;
-        for (const ConvergePoint* point : series.points) {
+        for (const Point* point : series.points) {
             if (point->seeds() < 2 || point->limit != Limit::none) continue;
             const auto rms = visible_bias(report.experiment, *point);
             if (rms) list += fmt::format("{}{:.2g} at N = {}", list.empty() ? "" : ", ", *rms, point->N);
@@ -196,44 +199,43 @@ std::string weighted_bias_text(const ConvergeReport& report) {
                             list.empty() ? "below the noise at every N" : list);
     }
     if (text.empty()) return text;
-    return "\nBias of the estimators that divide by a sum of weights (root mean square over pixels, where it stands "
-           "out of "
-           "the noise):\n\n" +
+    return "\nBias of the estimators that divide by a sum of weights (root mean square over pixels, where it "
+           "stands "
+           "out of the noise):\n\n" +
            text;
 }
 
-std::string limits_text(const ConvergeReport& report) {
+std::string limits_text(const Report& report) {
     int by_reference = 0;
     int by_rounding = 0;
-    for (const ConvergePoint& point : report.experiment.points) {
+    for (const Point& point : report.experiment.points) {
         by_reference += point.limit == Limit::reference;
         by_rounding += point.limit == Limit::rounding;
     }
     std::string text;
     if (by_reference > 0) {
         text += fmt::format(
-            "\n{} points are reference-limited (within three times the reference's own error): they are "
-            "marked in the files and left out of slopes and times.\n",
+            "\n{} points are reference-limited (within three times the reference's own error): they are marked in "
+            "the "
+            "files and left out of slopes and times.\n",
             by_reference);
     }
     if (by_rounding > 0) {
         text += fmt::format(
-            "\n{} points err by no more than the rounding of radiance to floats: exact, as far as this "
-            "can tell.\n",
+            "\n{} points err by no more than the rounding of radiance to floats: exact, as far as this can tell.\n",
             by_rounding);
     }
     if (report.experiment.settings.tracers.size() > 1) {
         text +=
             "\nThe reference is traced by the fast tracer: the other's hits differ within the tolerance, which its "
-            "errors "
-            "include.\n";
+            "errors include.\n";
     }
     return text;
 }
 
 }  // namespace
 
-std::string converge_summary(const ConvergeReport& report) {
+std::string converge_summary(const Report& report) {
     return fmt::format("# Error against time: {}\n\n", report.function) + setting_text(report) + "\n" + advice(report) +
            "\n" + table(report) + "\n## How far to trust it\n\n" + bias_text(report) + weighted_bias_text(report) +
            limits_text(report);

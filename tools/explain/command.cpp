@@ -1,5 +1,6 @@
 // strata explain: what a render does, what it leaves out, and what it will cost.
 #include <memory>
+#include <optional>
 
 #include "noise/simd_target.h"
 #include "src/image/file_paths.h"
@@ -9,6 +10,7 @@
 #include "tools/cli/errors.h"
 #include "tools/cli/planned_files.h"
 #include "tools/cli/scene_argument.h"
+#include "tools/cli/shared_options.h"
 #include "tools/cli/standard_output.h"
 #include "tools/explain/explanation.h"
 #include "tools/job/aov.h"
@@ -20,11 +22,12 @@ namespace {
 
 struct ExplainRequest {
     cli::SceneArgument scene;
-    std::string crop, tracer, simd, json, statistics, passes, aov, threads = "0";
-    bool no_pilot = false, quiet = false;
+    std::string crop, json, statistics, aov;
+    std::optional<integrate::Tracer> tracer;
+    std::optional<int> passes;
+    int threads = 0;
+    bool is_simd_pinned = false, no_pilot = false, quiet = false;
 };
-
-constexpr int kMostThreads = 1024;
 
 void plan_json(const ExplainRequest& request, const cli::LoadedScene& loaded, cli::PlannedFiles& files) {
     if (request.json.empty()) return;
@@ -40,34 +43,32 @@ void plan_json(const ExplainRequest& request, const cli::LoadedScene& loaded, cl
 
 int explain_command(const ExplainRequest& request) {
     parallel::end_on_signals();
-    const int threads = cli::parse_integer("--threads", request.threads, 0, kMostThreads);
     cli::LoadedScene loaded = request.scene.load();
-    if (!request.simd.empty()) {
-        cli::use_simd_target(request.simd);
-    } else if (loaded.simd_target) {
-        noise::pin_simd_target(*loaded.simd_target);
-    }
+    if (!request.is_simd_pinned && loaded.simd_target) noise::pin_simd_target(*loaded.simd_target);
     Explanation explanation;
     explanation.window = cli::window_of(request.crop, loaded);
-    explanation.tracer = !request.tracer.empty() ? request.tracer : loaded.tracer.value_or("fast");
-    const integrate::Tracer tracer = cli::parse_tracer(explanation.tracer);
+    const integrate::Tracer tracer = cli::tracer_of(request.tracer, loaded);
+    explanation.tracer = cli::name_of(tracer);
     explanation.simd_target = noise::simd_target();
     explanation.name = loaded.name;
     explanation.scene = loaded.scene;
-    const std::string passes_text = !request.passes.empty() ? request.passes : loaded.passes.value_or("1");
-    int passes = cli::parse_integer("--passes", passes_text, 1, render::kMostPasses);
+    int passes = request.passes ? *request.passes
+                                : cli::parse_integer("--passes", loaded.passes.value_or("1"), 1, render::kMostPasses);
     cli::PlannedFiles files;
     plan_json(request, loaded, files);
     if (!request.statistics.empty()) {
-        const std::string mark = job::settings_mark(loaded.scene, explanation.window, explanation.tracer);
+        const std::string mark = job::settings_mark({loaded.scene, explanation.window, tracer});
         explanation.recorded = read_recorded(request.statistics, mark, count_rays(loaded.scene, explanation.window));
-        if (request.passes.empty()) passes = static_cast<int>(explanation.recorded->passes);
+        if (!request.passes) passes = static_cast<int>(explanation.recorded->passes);
     }
     const std::vector<job::Aov> aovs = job::aovs_of(request.aov, loaded, passes);
     explanation.plan = make_plan(loaded.scene, tracer, passes, aovs);
-    explanation.prediction = predict(
-        loaded.scene, explanation.window,
-        {.tracer = tracer, .threads = threads, .passes = passes, .aovs = aovs, .with_pilot = !request.no_pilot});
+    explanation.prediction = predict(loaded.scene, explanation.window,
+                                     {.tracer = tracer,
+                                      .threads = request.threads,
+                                      .passes = passes,
+                                      .aovs = aovs,
+                                      .with_pilot = !request.no_pilot});
     if (!request.json.empty()) files.write(request.json, explanation_json(explanation));
     if (!request.quiet) cli::print_out(explanation_text(explanation));
     return files.all_written() ? 0 : cli::kExitRuntime;
@@ -75,40 +76,27 @@ int explain_command(const ExplainRequest& request) {
 
 }  // namespace
 
-void add_command(cli::Command& program, int& exit_code) {
+void add_command(cli::Command& program) {
     cli::Command* command =
         program.add_subcommand("explain", "Tell what a render does, what it leaves out, and what it will cost");
     auto request = std::make_shared<ExplainRequest>();
     request->scene.add_to(*command);
-    command->add_option("--crop", request->crop, "As for render: pixels [x0,x1) x [y0,y1) of the frame alone")
-        ->type_name("x0,y0,x1,y1");
-    command
-        ->add_option("--threads", request->threads,
-                     "As for render: threads, up to 1024; 0: as many as machine and container give")
-        ->type_name("n")
-        ->capture_default_str();
-    command->add_option("--tracer", request->tracer, "As for render: fast or reference; default fast")
-        ->type_name("NAME");
-    command
-        ->add_option("--simd", request->simd,
-                     "As for render: avx512, avx2, sse4 or scalar; default the best that is here")
-        ->type_name("TARGET");
-    command->add_option("--passes", request->passes, "As for render: average so many passes; default 1")
-        ->type_name("K");
-    command->add_option("--aov", request->aov, "As for render: also keep what pixels cost")->type_name("steps,evals");
+    cli::add_crop(*command, request->crop);
+    cli::add_threads(*command, request->threads);
+    cli::add_tracer(*command, request->tracer);
+    cli::add_simd(*command, &request->is_simd_pinned);
+    command->add_option("--passes", request->passes, 1, render::kMostPasses, "K",
+                        "As for render: average so many passes; default 1");
+    command->add_option("--aov", request->aov, "steps,evals", "As for render: also keep what pixels cost");
     command->add_flag("--no-pilot", request->no_pilot, "Cast no rays: tell only what is known without");
-    command
-        ->add_option(
-            "--stats", request->statistics,
-            "What `strata render --stats` wrote of the same render: the actual costs beside the predicted ones")
-        ->type_name("FILE.json");
-    command->add_option("--json", request->json, "Write the same as JSON; - for standard output")
-        ->type_name("FILE.json");
-    command->add_flag("--quiet", request->quiet, "No text");
+    command->add_option(
+        "--stats", request->statistics, "FILE.json",
+        "What `strata render --stats` wrote of the same render: the actual costs beside the predicted ones");
+    command->add_option("--json", request->json, "FILE.json", "Write the same as JSON; - for standard output");
+    cli::add_quiet(*command, request->quiet, "No text");
     command->footer(
         "A pilot casts 1 % of the rays - at least 65536, or all of up to 131072; at most 262144, or 16384 of the "
-        "reference tracer's - "
-        "in\n"
+        "reference tracer's - in\n"
         "small blocks all over the frame, on one thread. What the blocks differ by tells the interval that holds a\n"
         "count 99 times in 100. Counts are the same in every run; times are not;\n"
         "`seconds` supposes a core for every thread.\n"
@@ -123,10 +111,9 @@ void add_command(cli::Command& program, int& exit_code) {
         "pilot {rays, share, cpu_seconds} or null; recorded {passes, threads, simd_target} or null, of --stats;\n"
         "costs {rays, shadow_rays, hits, noise_evaluations, executed_lanes, steps, cpu_seconds, seconds,\n"
         "peak_memory_bytes}, each {predicted, low, high, actual, ratio}, null where not known.\n"
-        "low and high: of counts. Of several "
-        "passes costs are those of one.\n"
+        "low and high: of counts. Of several passes costs are those of one.\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, scene or --stats.");
-    command->callback([request, &exit_code] { exit_code = explain_command(*request); });
+    command->action([request] { return explain_command(*request); });
 }
 
 }  // namespace strata::tools::explain

@@ -3,22 +3,11 @@
 #include "src/scene/enum_names.h"
 #include "tools/cli/progress_printer.h"
 #include "tools/explain/explanation.h"
+#include "tools/report/text.h"
 
 namespace strata::tools::explain {
 
 namespace {
-
-// 12345678 -> "12.3 M".
-std::string scaled(double count) {
-    constexpr std::pair<double, const char*> kScales[] = {{1e12, " T"}, {1e9, " G"}, {1e6, " M"}, {1e3, " k"}};
-    for (const auto& [scale, letter] : kScales) {
-        if (count >= 10 * scale || (scale > 1e3 && count >= scale)) {
-            const double value = count / scale;
-            return fmt::format("{:.{}f}{}", value, value < 10 ? 2 : value < 100 ? 1 : 0, letter);
-        }
-    }
-    return fmt::format("{:.0f}", count);
-}
 
 // Three digits, but no exponent for what is read as a length.
 std::string length(double x) {
@@ -89,7 +78,7 @@ std::string value_text(const std::string& name, const std::optional<double>& val
     if (!value) return "-";
     if (name.ends_with("bytes")) return fmt::format("{:.0f} MB", *value / 1e6);
     if (name.ends_with("seconds")) return *value < 600 ? fmt::format("{:.3g} s", *value) : cli::duration_text(*value);
-    return scaled(*value);
+    return report::scaled(*value);
 }
 
 std::string costs_text(const Explanation& explanation) {
@@ -103,7 +92,8 @@ std::string costs_text(const Explanation& explanation) {
         const bool counts = !name.ends_with("seconds") && !name.ends_with("bytes");
         const std::string a_ray = counts && cost.predicted ? fmt::format("{:.3g}", *cost.predicted / rays) : "";
         const std::string between =
-            cost.between ? scaled(cost.between->low) + " and " + scaled(cost.between->high) : std::string();
+            cost.between ? report::scaled(cost.between->low) + " and " + report::scaled(cost.between->high)
+                         : std::string();
         text += fmt::format("{:<20}{:>12}{:>10}{:>22}", name, value_text(name, cost.predicted), a_ray, between);
         if (beside) {
             const auto ratio = cost.ratio();
@@ -122,7 +112,7 @@ std::string basis_text(const Explanation& explanation) {
         const double rays = static_cast<double>(prediction.pilot->rays);
         const double share = rays / static_cast<double>(prediction.costs.rays);
         text = fmt::format(
-            "From a pilot of {} rays, {:.3g} % of all{}. Rays are exact.\n", scaled(rays), 100 * share,
+            "From a pilot of {} rays, {:.3g} % of all{}. Rays are exact.\n", report::scaled(rays), 100 * share,
             share > kPilotFraction ? fmt::format(" (of a small picture some {} rays)", kLeastPilotRays) : "");
     } else {
         text = "No pilot: only what is known without one.\n";

@@ -62,9 +62,9 @@ void add_motion(FeatureList& list, const scene::Scene& scene) {
              has_path ? "the camera rests while the shutter is open" : "camera.keys has fewer than two keys");
     list.add("spin", motion.spin, instant_note(scene), "surface.spin_deg_per_s is 0");
     list.add("drift", motion.drift, "the noise is evaluated at shifted points",
-             scene.surface.drift == glm::dvec3(0.0) ? "surface.drift is 0"
-                                                    : "this drift does not change the surface: no octaves, or a "
-                                                      "height field that drifts up or down");
+             scene.surface.drift == glm::dvec3(0.0)
+                 ? "surface.drift is 0"
+                 : "this drift does not change the surface: no octaves, or a height field that drifts up or down");
 }
 
 const char* shadow_reason(const scene::Sun& sun) {

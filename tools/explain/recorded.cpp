@@ -43,8 +43,7 @@ class Reader {
   private:
     [[noreturn]] void missing(const char* key) const {
         throw cli::UsageError(
-            fmt::format("--stats {}: has no '{}'; allowed: a file that this version's strata render "
-                        "--stats wrote",
+            fmt::format("--stats {}: has no '{}'; allowed: a file that this version's strata render --stats wrote",
                         path_.string(), key));
     }
 
@@ -59,8 +58,8 @@ Recorded read_recorded(const std::filesystem::path& path, const std::string& mar
     const Reader reader(path, parsed);
     if (reader.text("settings_mark") != mark) {
         throw cli::UsageError(
-            fmt::format("--stats {}: of a render of another scene ('{}'), or with another setting, crop or "
-                        "tracer; allowed: of the same render",
+            fmt::format("--stats {}: of a render of another scene ('{}'), or with another setting, crop or tracer; "
+                        "allowed: of the same render",
                         path.string(), reader.text("scene")));
     }
     const double counted = reader.number("rays");

@@ -11,7 +11,7 @@
 #include "tools/cli/errors.h"
 #include "tools/cli/planned_files.h"
 #include "tools/cli/process.h"
-#include "tools/cli/scene_argument.h"
+#include "tools/cli/shared_options.h"
 #include "tools/cli/standard_output.h"
 #include "tools/figures/figure_maker.h"
 #include "tools/figures/films.h"
@@ -24,29 +24,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostThreads = 1024;
 constexpr const char* kPage = "index.html";
 
 struct FiguresRequest {
-    std::string only, size = "paper", folder = "figures", threads = "0";
+    std::string only, size = "paper", folder = "figures";
+    int threads = 0;
     bool quiet = false, overwrite = false, html = false, no_films = false;
 };
-
-std::vector<std::string> split(const std::string& text) {
-    std::vector<std::string> words;
-    for (std::size_t begin = 0;;) {
-        const std::size_t end = text.find(',', begin);
-        words.push_back(text.substr(begin, end - begin));
-        if (end == std::string::npos) return words;
-        begin = end + 1;
-    }
-}
 
 std::vector<Figure> chosen_figures(const std::string& only) {
     const auto all = all_figures();
     if (only.empty()) return {all.begin(), all.end()};
     std::set<int> numbers;
-    for (const std::string& word : split(only)) {
+    for (const std::string& word : cli::split_at_commas(only)) {
         numbers.insert(cli::parse_integer("--only", word, all.front().number, all.back().number));
     }
     std::vector<Figure> chosen;
@@ -85,17 +75,12 @@ void say(const char* what, const fs::path& path, bool quiet) {
 }
 
 // Each fails alone. False if one did.
-bool make_films(const MakeOptions& options, const std::string& threads) {
+bool make_films(const MakeOptions& options, const parallel::CancelToken& cancel) {
     bool all = true;
     for (const Film& film : films(options.size)) {
-        const bool kept = !options.overwrite && is_made(film, options.folder, options.quiet);
+        const bool kept = !options.overwrite && is_made(film, options);
         const auto make = [&] {
-            const FilmOptions how{.folder = options.folder,
-                                  .size = options.size,
-                                  .threads = threads,
-                                  .quiet = options.quiet,
-                                  .overwrite = options.overwrite};
-            if (!make_film(film, how)) throw Interrupted();
+            if (!make_film(film, options, cancel)) throw Interrupted();
         };
         if (!kept) all &= cli::is_written(options.folder / film.name, make);
         if (kept) say("kept", options.folder / film_files(film).front(), options.quiet);
@@ -109,54 +94,47 @@ void make_page(const MakeOptions& options) {
 }
 
 int figures_command(const FiguresRequest& request) {
-    static parallel::CancelToken cancel;
     const std::vector<Figure> chosen = chosen_figures(request.only);
     const MakeOptions options{.folder = request.folder,
                               .size = parse_size(request.size),
-                              .threads = cli::parse_integer("--threads", request.threads, 0, kMostThreads),
+                              .threads = request.threads,
                               .quiet = request.quiet,
                               .overwrite = request.overwrite};
     check_surroundings(chosen, options);
     if (makes_films(request)) cli::find_program("ffmpeg", "ffmpeg", "video");
-    parallel::cancel_on_signals(cancel);
-    int exit_code = 0;
+    const parallel::CancelToken& cancel = cli::cancel_by_signals();
+    bool all = true;
     try {
-        if (!make_figures(chosen, options, cancel)) exit_code = cli::kExitRuntime;
-        if (makes_films(request) && !make_films(options, request.threads)) exit_code = cli::kExitRuntime;
+        all = make_figures(chosen, options, cancel);
+        if (makes_films(request)) all &= make_films(options, cancel);
         if (request.html) make_page(options);
     } catch (const Interrupted&) {
         if (!options.quiet) cli::print_out("stopped  finished figures are kept: the same command makes the rest\n");
     }
-    return parallel::cancelling_signal() != 0 ? cli::kExitSignal + parallel::cancelling_signal() : exit_code;
+    // A signal is why figures are missing, whatever else failed.
+    return cli::exit_code_of(all || cancel.requested());
 }
 
 }  // namespace
 
-void add_command(cli::Command& program, int& exit_code) {
+void add_command(cli::Command& program) {
     cli::Command* command = program.add_subcommand("figures", "Make the figures of Gamito & Maddock 2006 anew");
     auto request = std::make_shared<FiguresRequest>();
-    command->add_option("--only", request->only, "Figures to make, 1 to 8, separated by commas; default all")
-        ->type_name("K,K...");
-    command->add_option("-o,--output", request->folder, "Folder to write to, made if it is not there")
-        ->type_name("DIR")
+    command->add_option("--only", request->only, "K,K...", "Figures to make, 1 to 8, separated by commas; default all");
+    command->add_option("-o,--output", request->folder, "DIR", "Folder to write to, made if it is not there")
         ->capture_default_str();
     command
         ->add_option(
-            "--size", request->size,
-            "small, paper or large: lengths in pixels at half, once and twice the paper's; the numbers of samples "
-            "stay")
-        ->type_name("NAME")
+            "--size", request->size, "NAME",
+            "small, paper or large: lengths in pixels at half, once and twice the paper's; the numbers of samples stay")
         ->capture_default_str();
-    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
-        ->type_name("n")
-        ->capture_default_str();
+    cli::add_threads(*command, request->threads);
     command->add_flag("--overwrite", request->overwrite, "Make figures anew that are there already");
-    command->add_flag(
-        "--html", request->html,
-        "Make the two animations (webm and mp4) and DIR/index.html too: every figure and film of the folder, "
-        "with captions and sliders between pictures");
+    command->add_flag("--html", request->html,
+                      "Make the two animations (webm and mp4) and DIR/index.html too: every figure and film of the "
+                      "folder, with captions and sliders between pictures");
     command->add_flag("--no-films", request->no_films, "With --html: leave the animations as they are");
-    command->add_flag("--quiet", request->quiet, "No progress and no list of what was made");
+    cli::add_quiet(*command, request->quiet, "No progress and no list of what was made");
     command->footer(
         "1  B-splines and their spectra          5  the whole surface\n"
         "2  iterations of the inverse            6  an area of it: none; cubic with N = 2, 3, 10\n"
@@ -167,7 +145,7 @@ void add_command(cli::Command& program, int& exit_code) {
         "A figure that is there, whole, with the same parameters and by the same version, is kept; one with\n"
         "an empty, cut or damaged file is made again; plots are drawn anew.\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, 129, 130 or 143 interrupted.");
-    command->callback([request, &exit_code] { exit_code = figures_command(*request); });
+    command->action([request] { return figures_command(*request); });
 }
 
 }  // namespace strata::tools::figures

@@ -46,12 +46,6 @@ int scaled(int pixels, Size size) {
     }
 }
 
-double Part::work() const {
-    const bool single = scene.sampling.estimator == scene::EstimatorKind::none;
-    const double samples = single ? 1.0 : scene.sampling.N * scene.sampling.N;
-    return cost * samples * window.width() * window.height();
-}
-
 std::span<const Figure> all_figures() {
     static const Figure figures[] = {kFigure1, kFigure2, kFigure3, kFigure4, kFigure5, kFigure6, kFigure7, kFigure8};
     return figures;

@@ -10,6 +10,7 @@
 #include "src/film/film.h"
 #include "src/image/picture.h"
 #include "src/scene/scene.h"
+#include "tools/job/picture_job.h"
 
 namespace strata::tools::figures {
 
@@ -27,7 +28,7 @@ struct Part {
     film::Rect window;
     double cost = 1;  // of a ray, relative to others: for the progress
 
-    double work() const;
+    job::PictureJob job() const { return {scene, window}; }
 };
 
 // A file to look at.

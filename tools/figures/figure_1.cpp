@@ -125,21 +125,16 @@ Plan plan(Size size) {
     result.title = "B-splines and their Fourier transforms";
     result.caption =
         "The uniform B-splines n_m of order m = 1 (box), 2 (tent), 3, 4 (cubic), 8 and 15, centred on the pixel, and "
-        "the "
-        "magnitude of their Fourier transforms, |sinc(f)|ᵐ, on a linear scale and in decibels. Dashed: the Gaussians "
-        "of "
-        "the same variance, m/12, that the splines tend to. Dots: what each leaves of a wave at Nyquist's frequency, "
-        "half "
-        "a cycle a pixel: (2/π)ᵐ = 0.637, 0.405, 0.258 and 0.164 for m = 1 to 4.";
+        "the magnitude of their Fourier transforms, |sinc(f)|ᵐ, on a linear scale and in decibels. Dashed: the "
+        "Gaussians of the same variance, m/12, that the splines tend to. Dots: what each leaves of a wave at Nyquist's "
+        "frequency, half a cycle a pixel: (2/π)ᵐ = 0.637, 0.405, 0.258 and 0.164 for m = 1 to 4.";
     result.chosen = {"the orders shown, beyond what the text names",
                      "the range of frequencies and the floor of -140 dB"};
-    result.shown = {
-        {"figure-1.png",
-         "Three plots. Left: B-splines of order 1 to 15, from a box to a wide bell. Middle: their spectra, falling "
-         "from 1 "
-         "at frequency 0, faster for higher orders. Right: the same in decibels, with zeros at every whole frequency; "
-         "higher orders have side lobes that lie far lower."},
-        {"figure-1.svg", "The same plots as vector graphics."}};
+    result.shown = {{"figure-1.png",
+                     "Three plots. Left: B-splines of order 1 to 15, from a box to a wide bell. Middle: their spectra, "
+                     "falling from 1 at frequency 0, faster for higher orders. Right: the same in decibels, with zeros "
+                     "at every whole frequency; higher orders have side lobes that lie far lower."},
+                    {"figure-1.svg", "The same plots as vector graphics."}};
     result.parameters = {
         {"orders", kOrders},     {"gaussian_orders", kGaussianOrders}, {"nyquist_cycles_per_px", kNyquist},
         {"floor_dB", kFloor_dB}, {"width_px", scaled(1500, size)},     {"height_px", scaled(560, size)}};

@@ -114,19 +114,16 @@ Plan plan(Size size) {
         "Left: iterations of plain Newton-Raphson from x = m/2, as the paper has it, until a step is shorter than a "
         "millionth of a pixel. In the middle of the distribution 8 are enough; towards y = 0, where N_m(x) is nearly "
         "x^m/m!, each step only divides the error by m/(m-1), and they are not. Middle: Halley's iteration on "
-        "N_m^(1/m) "
-        "from a start that knows both the tail and the middle, as this program does it. Right: how far off the paper's "
-        "iteration is if it is stopped at 8. The half y > 1/2 mirrors what is shown.";
+        "N_m^(1/m) from a start that knows both the tail and the middle, as this program does it. Right: how far off "
+        "the paper's iteration is if it is stopped at 8. The half y > 1/2 mirrors what is shown.";
     result.chosen = {"the whole figure: the paper's figure 2 is lost", "the orders and the range of y",
                      "the tolerance of 10⁻⁶ px"};
-    result.shown = {
-        {"figure-2.png",
-         "Three plots over the probability y from 10⁻¹² to 1/2. Left: Newton's iterations stay at or below "
-         "8 near 1/2 and "
-         "rise above 8, to 30 and more, towards small y. Middle: Halley's steps, two everywhere or fewer. "
-         "Right: the error "
-         "left when Newton is stopped at 8 rises from nothing to between 0.004 and 2.5 pixels towards small y."},
-        {"figure-2.svg", "The same plots as vector graphics."}};
+    result.shown = {{"figure-2.png",
+                     "Three plots over the probability y from 10⁻¹² to 1/2. Left: Newton's iterations stay at or below "
+                     "8 near 1/2 and rise above 8, to 30 and more, towards small y. Middle: Halley's steps, two "
+                     "everywhere or fewer. Right: the error left when Newton is stopped at 8 rises from nothing to "
+                     "between 0.004 and 2.5 pixels towards small y."},
+                    {"figure-2.svg", "The same plots as vector graphics."}};
     result.parameters = {{"orders", kOrders},
                          {"least_y", kLeast},
                          {"points", kPoints + 1},

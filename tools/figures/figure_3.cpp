@@ -109,28 +109,22 @@ Plan plan(Size size) {
     result.title = "Sampling patterns of a pixel";
     result.caption =
         "The samples of one pixel at N = 10, as the renderer takes them, the area of a dot in proportion to its "
-        "weight; "
-        "pixel boundaries in grey, the pixel itself outlined darker, a diamond at its centre. Upper row, after the "
-        "paper: a "
-        "regular grid over the pixel, which is a box filter; a regular grid on the cubic's support of 4×4 pixels, "
-        "weighted "
-        "by the filter (2); the same jittered; and N×N strata of probability through the inverse distribution, all of "
-        "the "
-        "same weight (3). Lower row, beyond the paper: the same without strata; Owen-scrambled Sobol points; strata "
-        "and "
-        "Sobol points in every pixel, each shared by the 4×4 pixels around it, so that 1600 count in this one.";
+        "weight; pixel boundaries in grey, the pixel itself outlined darker, a diamond at its centre. Upper row, after "
+        "the paper: a regular grid over the pixel, which is a box filter; a regular grid on the cubic's support of 4×4 "
+        "pixels, weighted by the filter (2); the same jittered; and N×N strata of probability through the inverse "
+        "distribution, all of the same weight (3). Lower row, beyond the paper: the same without strata; "
+        "Owen-scrambled Sobol points; strata and Sobol points in every pixel, each shared by the 4×4 pixels around it, "
+        "so that 1600 count in this one.";
     result.chosen = {
         "the lower row",
-        "the third pattern: the paper's text has 'stratified with weights', which is the "
-        "jittered grid here",
+        "the third pattern: the paper's text has 'stratified with weights', which is the jittered grid here",
         "dots drawn with their weight as area, but never too small to be seen, and smaller in the first pattern"};
-    result.shown = {
-        {"figure-3.png",
-         "Eight squares of five by five pixels with sample points. A regular grid within the centre pixel; regular and "
-         "jittered grids over four by four pixels, dots shrinking outwards; stratified points, dense at the centre and "
-         "sparse outwards; the same at random with clumps, by Sobol points without, and 1600 shared points with dots "
-         "shrinking outwards."},
-        {"figure-3.svg", "The same plots as vector graphics."}};
+    result.shown = {{"figure-3.png",
+                     "Eight squares of five by five pixels with sample points. A regular grid within the centre pixel; "
+                     "regular and jittered grids over four by four pixels, dots shrinking outwards; stratified points, "
+                     "dense at the centre and sparse outwards; the same at random with clumps, by Sobol points "
+                     "without, and 1600 shared points with dots shrinking outwards."},
+                    {"figure-3.svg", "The same plots as vector graphics."}};
     result.data = {kData};
     for (const Pattern& pattern : kPatterns) result.parameters["estimators"].push_back(scene::name_of(pattern.kind));
     result.parameters.update({{"N", kN},

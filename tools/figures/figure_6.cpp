@@ -18,13 +18,12 @@ Plan plan(Size size) {
     result.title = "More samples: from aliasing to noise to a smooth picture";
     result.caption =
         "An area of the surface of figure 5. From left to right: no anti-aliasing; the cubic B-spline with N = 2, 3 "
-        "and 10, "
-        "that is 4, 9 and 100 samples a pixel. Four samples turn the aliasing into noise, which fades as N grows.";
+        "and 10, that is 4, 9 and 100 samples a pixel. Four samples turn the aliasing into noise, which fades as N "
+        "grows.";
     result.chosen = {"the area"};
-    result.shown = {
-        {"figure-6.png",
-         "Four magnified pictures of white peaks in low sun. Without anti-aliasing, black and white pixels lie "
-         "scattered; with N = 2 they are grainy, with N = 3 less so, with N = 10 smooth."}};
+    result.shown = {{"figure-6.png",
+                     "Four magnified pictures of white peaks in low sun. Without anti-aliasing, black and white pixels "
+                     "lie scattered; with N = 2 they are grainy, with N = 3 less so, with N = 10 smooth."}};
     add_detail(result, size, detail_of_figure_6(size), kColumns);
     return result;
 }

@@ -18,15 +18,12 @@ Plan plan(Size size) {
     result.title = "Higher orders: blur grows with the filter's width";
     result.caption =
         "Another area of the surface of figure 5. From left to right: no anti-aliasing; B-splines of order m = 1 "
-        "(box), 4 "
-        "(cubic) and 15, each with 100 samples a pixel. The higher the order, the wider the filter, and the farther "
-        "bright "
-        "pixels spread into the dark.";
+        "(box), 4 (cubic) and 15, each with 100 samples a pixel. The higher the order, the wider the filter, and the "
+        "farther bright pixels spread into the dark.";
     result.chosen = {"the area"};
-    result.shown = {
-        {"figure-7.png",
-         "Four magnified pictures of the planet's ragged rim before a dark sky. Without anti-aliasing the rim "
-         "falls apart into single pixels; m = 1 is sharp, m = 4 softer, m = 15 plainly blurred."}};
+    result.shown = {{"figure-7.png",
+                     "Four magnified pictures of the planet's ragged rim before a dark sky. Without anti-aliasing the "
+                     "rim falls apart into single pixels; m = 1 is sharp, m = 4 softer, m = 15 plainly blurred."}};
     add_detail(result, size, detail_of_figure_7(size), kColumns);
     return result;
 }

@@ -1,12 +1,10 @@
 // Making figures: rendering their parts with progress over all of them, drawing them, and writing what they are.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <vector>
 
 #include "src/parallel/cancel.h"
-#include "tools/cli/progress_printer.h"
 #include "tools/figures/figure.h"
 
 namespace strata::tools::figures {

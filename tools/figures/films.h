@@ -1,25 +1,19 @@
-// The paper's two animations, made by `strata animate` beside the figures.
+// The paper's two animations, made as by `strata animate` beside the figures.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "tools/figures/figure.h"
+#include "tools/figures/figure_maker.h"
 
 namespace strata::tools::figures {
-
-struct FilmOptions {
-    std::filesystem::path folder;
-    Size size = Size::paper;
-    std::string threads = "0";
-    bool quiet = false, overwrite = false;
-};
 
 struct Film {
     std::string name;  // "animation-1": of its files, .webm, .mp4 and .json
     std::string title, caption;
-    std::vector<std::string> settings;  // after `strata animate`: scene and size
+    std::string scene;  // a built-in one
+    int width = 0, height = 0;
 };
 
 std::vector<Film> films(Size size);
@@ -31,9 +25,10 @@ std::vector<std::string> film_files(const Film& film);
 nlohmann::ordered_json film_record(const Film& film);
 
 // Whether the film is there, whole and as it would be made. Tells what is damaged unless quiet.
-bool is_made(const Film& film, const std::filesystem::path& folder, bool quiet);
+bool is_made(const Film& film, const MakeOptions& options);
 
-// Makes a film and its record. False when it was interrupted: its frames are kept. Throws what `strata animate` throws.
-bool make_film(const Film& film, const FilmOptions& options);
+// Makes a film and its record. False when it was interrupted: its frames are kept. Throws what `strata animate` throws,
+// and ProcessError when it could not be made.
+bool make_film(const Film& film, const MakeOptions& options, const parallel::CancelToken& cancel);
 
 }  // namespace strata::tools::figures

@@ -15,11 +15,8 @@ struct PageTexts {
 };
 const PageTexts& page_texts();
 
-// Text as it may stand in HTML and in a quoted attribute.
-std::string escaped(std::string_view text);
-
-// The page of these figures (record_of) and films (film_record), in their order: style and script within, pictures and
-// films referred to by name, nothing from elsewhere.
+// The page of these figures (record_of) and films (film_record), in their order: style, script and the records within,
+// from which the script builds what is seen; pictures and films referred to by name, nothing from elsewhere.
 std::string page_of(const std::vector<nlohmann::ordered_json>& figures,
                     const std::vector<nlohmann::ordered_json>& films);
 

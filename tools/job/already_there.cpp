@@ -9,6 +9,7 @@
 #include "src/image/image_error.h"
 #include "src/image/read.h"
 #include "src/scene/key_text.h"
+#include "tools/cli/errors.h"
 #include "tools/cli/standard_output.h"
 
 namespace strata::tools::job {
@@ -128,6 +129,18 @@ Found find_file(const fs::path& path, std::string_view digest) {
         return {Presence::damaged, reason_of(error)};
     }
     return {Presence::damaged, kOtherBytes};
+}
+
+bool is_kept(const fs::path& path, const image::Metadata& expected, const image::PictureShape& shape, IfOther other,
+             bool quiet) {
+    const Found found = find_picture(path, expected, shape);
+    if (found.presence == Presence::damaged && !quiet) tell_damaged(path, found);
+    if (found.presence == Presence::other && other == IfOther::refuse) {
+        throw cli::UsageError(
+            fmt::format("{} is there and is not the frame asked for: {}; allowed: --overwrite, or another -o",
+                        path.string(), found.why));
+    }
+    return found.presence == Presence::same;
 }
 
 void tell_damaged(const fs::path& path, const Found& found) {

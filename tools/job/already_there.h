@@ -30,6 +30,14 @@ Found find_picture(const std::filesystem::path& path, const image::Metadata& exp
 // By a digest that was kept beside a file of any kind (image::digest_of_file).
 Found find_file(const std::filesystem::path& path, std::string_view digest);
 
+// What becomes of a file that is there and is another one.
+enum class IfOther { replace, refuse };
+
+// Whether the picture is there already, so that it need not be made. Tells that it is damaged unless quiet. Throws
+// UsageError for another one that is not to be replaced.
+bool is_kept(const std::filesystem::path& path, const image::Metadata& expected, const image::PictureShape& shape,
+             IfOther other, bool quiet);
+
 // A line on standard output: that the file is damaged, why, and that it is made again.
 void tell_damaged(const std::filesystem::path& path, const Found& found);
 

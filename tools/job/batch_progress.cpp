@@ -2,14 +2,8 @@
 
 namespace strata::tools::job {
 
-double expected_rays(const scene::Scene& scene, const film::Rect& window) {
-    const scene::Sampling& sampling = scene.sampling;
-    const double a_pixel =
-        sampling.estimator == scene::EstimatorKind::none ? 1.0 : static_cast<double>(sampling.N) * sampling.N;
-    return a_pixel * window.width() * window.height();
-}
-
 parallel::ProgressCallback BatchProgress::next(double weight) {
+    if (!start_) start_ = std::chrono::steady_clock::now();
     done_ += weight_;
     rays_ += current_rays_;
     weight_ = weight;
@@ -20,7 +14,7 @@ parallel::ProgressCallback BatchProgress::next(double weight) {
 void BatchProgress::advance(const parallel::Progress& progress) {
     current_rays_ = progress.rays;
     if (!show_) return;
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - *start_).count();
     show_({.fraction = total_ > 0 ? (done_ + weight_ * progress.fraction) / total_ : 1,
            .rays = rays_ + current_rays_,
            .seconds = seconds});

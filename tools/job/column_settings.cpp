@@ -39,7 +39,6 @@ cli::UsageError problem(std::string_view origin, std::string_view entry, const s
     return cli::UsageError(fmt::format("{} '{}': {}", origin, scene::excerpt(entry), what));
 }
 
-// Cuts text at the separators that stand outside quotes and brackets. Pieces come trimmed, empty ones too.
 class Splitter {
   public:
     Splitter(std::string_view origin, std::string_view text) : origin_(origin), text_(text) {}
@@ -139,6 +138,11 @@ ColumnSettings parse_entry(std::string_view origin, std::string_view entry) {
 }
 
 }  // namespace
+
+std::vector<std::string_view> split_values(std::string_view origin, std::string_view text,
+                                           std::string_view separators) {
+    return Splitter(origin, text).split(separators);
+}
 
 std::string full_key_name(std::string_view origin, std::string_view name) {
     for (const auto& [short_name, full_name] : kShortNames) {

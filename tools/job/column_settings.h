@@ -29,6 +29,10 @@ std::vector<ColumnSettings> parse_columns(std::string_view origin, std::string_v
 // One entry; a ';' in it is an error.
 ColumnSettings parse_column(std::string_view origin, std::string_view text);
 
+// The pieces between separators that stand outside quotes and brackets, without blanks around them, empty ones too:
+// "1, [2,3]" at ","s. Throws UsageError for brackets or quotes that do not close.
+std::vector<std::string_view> split_values(std::string_view origin, std::string_view text, std::string_view separators);
+
 // `m` -> `sampling.m`, `fov_deg` -> `camera.fov_deg`, `surface.gain` as it is. Throws UsageError, with the nearest
 // name, for what is no key of a scene file or a last part that several sections have. `relief.TERM.key` is passed on:
 // which terms there are, is known when it is applied.

@@ -2,14 +2,17 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
-#include "src/film/film.h"
-#include "src/scene/scene.h"
+#include "tools/job/picture_job.h"
 
 namespace strata::tools::job {
 
-// 16 hexadecimal digits that differ, but for chance, when scene, window or tracer do. Title and what colours the
-// picture, exposure to tone curve, are left out: they cost nothing. 64-bit FNV-1a of the printed scene.
-std::string settings_mark(const scene::Scene& scene, const film::Rect& window, const std::string& tracer);
+// 16 hexadecimal digits: 64-bit FNV-1a.
+std::string mark_of(std::string_view text);
+
+// A mark that differs, but for chance, when scene, window or tracer of a picture do. Title and what
+// colours the picture, exposure to tone curve, are left out: they cost nothing.
+std::string settings_mark(const PictureJob& job);
 
 }  // namespace strata::tools::job

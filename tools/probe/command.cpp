@@ -22,6 +22,7 @@
 #include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/scene_argument.h"
+#include "tools/cli/shared_options.h"
 #include "tools/cli/standard_output.h"
 #include "tools/cli/stream_input.h"
 
@@ -79,8 +80,7 @@ void check_within_reach(const trace::Field& field, double distance) {
     for (const noise::Octave& octave : field.octaves()) finest = std::max(finest, octave.frequency);
     if (finest * distance <= scene::kMostCells) return;
     throw BadLine{
-        fmt::format("within {:.3g} surface units of surface.origin, where double tells the finest octave's "
-                    "cells apart",
+        fmt::format("within {:.3g} surface units of surface.origin, where double tells the finest octave's cells apart",
                     scene::kMostCells / finest)};
 }
 
@@ -147,7 +147,8 @@ void print_ray(const integrate::SurfaceImage& image, const trace::Ray& world, co
 
 struct RayRequest {
     cli::SceneArgument scene;
-    std::string pixel, sample, tracer = "fast", simd;
+    std::string pixel, sample;
+    integrate::Tracer tracer = integrate::Tracer::fast;
 };
 
 // The direction times a power of two, so that no square overflows or vanishes.
@@ -177,9 +178,8 @@ void probe_pixel_ray(const RayRequest& request, const scene::Scene& scene, const
 }
 
 void probe_ray(const RayRequest& request) {
-    if (!request.simd.empty()) cli::use_simd_target(request.simd);
     const scene::Scene scene = surface_scene(request.scene, "ray");
-    const integrate::SurfaceImage image(scene, cli::parse_tracer(request.tracer));
+    const integrate::SurfaceImage image(scene, request.tracer);
     if (!request.pixel.empty()) return probe_pixel_ray(request, scene, image);
     if (!request.sample.empty()) throw cli::UsageError("--sample: allowed: with --pixel only");
     each_line(6, 7, "ox oy oz dx dy dz [t], a direction other than zero", [&](const std::vector<double>& in) {
@@ -238,7 +238,7 @@ void probe_samples(const cli::SceneArgument& argument, const std::string& pixel_
 
 }  // namespace
 
-void add_command(cli::Command& program, int&) {
+void add_command(cli::Command& program) {
     cli::Command* probe =
         program.add_subcommand("probe", "Numbers as JSON lines: the field, rays, the filter, the samples");
     probe->require_subcommand();
@@ -252,42 +252,41 @@ void add_command(cli::Command& program, int&) {
         "f is in surface units, in double from the reference path, > 0 outside, before the intersection with a "
         "bounding\n"
         "ball or box. The gradient is that of f by world position. Without t: the middle of the frame's shutter.");
-    field->callback([field_scene] { probe_field(*field_scene); });
+    field->action([field_scene] { return probe_field(*field_scene); });
 
     cli::Command* ray =
         probe->add_subcommand("ray", "Traces rays of the camera, or `ox oy oz dx dy dz [t]` lines of stdin");
     auto ray_request = std::make_shared<RayRequest>();
     ray_request->scene.add_to(*ray);
-    ray->add_option("--pixel", ray_request->pixel, "The ray through a pixel's centre at mid-shutter")->type_name("x,y");
-    ray->add_option("--sample", ray_request->sample,
-                    "Through this sample of the pixel, counted as `probe samples` does")
-        ->type_name("I");
-    ray->add_option("--tracer", ray_request->tracer, "fast or reference")->capture_default_str()->type_name("NAME");
-    ray->add_option("--simd", ray_request->simd, "avx512, avx2, sse4 or scalar")->type_name("TARGET");
+    ray->add_option("--pixel", ray_request->pixel, "x,y", "The ray through a pixel's centre at mid-shutter");
+    ray->add_option("--sample", ray_request->sample, "I",
+                    "Through this sample of the pixel, counted as `probe samples` does");
+    cli::add_tracer(*ray, ray_request->tracer);
+    cli::add_simd(*ray);
     ray->footer(
         "Distances and positions are the world's; direction and normal have unit length. hit is null for a ray that "
         "was\n"
         "not settled within the step limit. noise_evaluations are those of the ray, without the normal's.");
-    ray->callback([ray_request] { probe_ray(*ray_request); });
+    ray->action([ray_request] { return probe_ray(*ray_request); });
 
     cli::Command* bspline =
         probe->add_subcommand("bspline", "Reads a y in [0,1] a line; inverts the B-spline's distribution");
-    auto order = std::make_shared<std::string>("4");
-    bspline->add_option("-m,--order", *order, "Order of the B-spline, 1 to 100")->capture_default_str()->type_name("M");
+    auto order = std::make_shared<int>(4);
+    bspline->add_option("-m,--order", *order, filter::kMinOrder, filter::kMaxOrder, "M",
+                        "Order of the B-spline, 1 to 100");
     bspline->footer(
         "x in [0,m]; bulk_x is the renderer's float table; paper_* is plain Newton iteration on the plain recursion, "
         "null\n"
         "for m > 20 and where it does not converge within 1000 iterations.");
-    bspline->callback(
-        [order] { probe_bspline(cli::parse_integer("-m", *order, filter::kMinOrder, filter::kMaxOrder)); });
+    bspline->action([order] { probe_bspline(*order); });
 
     cli::Command* samples = probe->add_subcommand("samples", "Prints every sample with a weight in a pixel");
     auto samples_scene = std::make_shared<cli::SceneArgument>();
     auto pixel = std::make_shared<std::string>();
     samples_scene->add_to(*samples);
-    samples->add_option("--pixel", *pixel, "The pixel")->required()->type_name("x,y");
+    samples->add_option("--pixel", *pixel, "x,y", "The pixel")->required();
     samples->footer("u right and v down in pixels from the pixel's centre, time in seconds; the weights sum to 1.");
-    samples->callback([samples_scene, pixel] { probe_samples(*samples_scene, *pixel); });
+    samples->action([samples_scene, pixel] { return probe_samples(*samples_scene, *pixel); });
 }
 
 }  // namespace strata::tools::probe

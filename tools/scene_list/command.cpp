@@ -33,13 +33,13 @@ void print_builtin(const std::string& name) {
 
 }  // namespace
 
-void add_command(cli::Command& program, int&) {
+void add_command(cli::Command& program) {
     cli::Command* command =
         program.add_subcommand("scenes", "List the built-in scenes, or print one with every key explained");
     auto name = std::make_shared<std::string>();
-    command->add_option("NAME", *name, "The scene to print as TOML: every key, its default, unit and range");
+    command->add_option("NAME", *name, "", "The scene to print as TOML: every key, its default, unit and range");
     command->footer("A printed scene is a scene file: save it, change it, render it.");
-    command->callback([name] { return name->empty() ? list_scenes() : print_builtin(*name); });
+    command->action([name] { name->empty() ? list_scenes() : print_builtin(*name); });
 }
 
 }  // namespace strata::tools::scene_list

@@ -85,8 +85,8 @@ std::vector<Row> inverse_in_double(int low, int high, const Settings& settings, 
     }
     const double px = inverse_bound(high);
     const std::string name = fmt::format("inverse in double, m = {}..{}", low, high);
-    return {{name + ", y from 5e-324", Kind::check, lower.value() * px, px, "px", lower.where(), {}},
-            {name + ", y up to 1 - 2^-53", Kind::check, upper.value() * px, px, "px", upper.where(), {}}};
+    return {check(name + ", y from 5e-324", lower.value() * px, px, "px", lower.where()),
+            check(name + ", y up to 1 - 2^-53", upper.value() * px, px, "px", upper.where())};
 }
 
 // N = 64 strata through the float table. The folded probability has three roundings (stratum and jitter added, the
@@ -114,13 +114,8 @@ std::vector<Row> strata_in_float(int low, int high, const Settings& settings, Ra
             }
         }
     }
-    return {{fmt::format("strata N = 64 through the float inverse, m = {}..{}", low, high),
-             Kind::check,
-             worst.value() * px,
-             px,
-             "px",
-             worst.where(),
-             {}}};
+    return {check(fmt::format("strata N = 64 through the float inverse, m = {}..{}", low, high), worst.value() * px, px,
+                  "px", worst.where())};
 }
 
 // n, N and 1 - N relative to themselves. Every term of the triangle is positive, so a level adds three roundings at
@@ -147,7 +142,7 @@ std::vector<Row> tail_values(const Settings& settings, Random& random) {
     }
     const double bound = 16 * kEps;
     const auto row = [&](const char* name, const Worst& worst) {
-        return Row{name, Kind::check, worst.value() * bound, bound, "relative", worst.where(), {}};
+        return check(name, worst.value() * bound, bound, "relative", worst.where());
     };
     return {row("n_m in the tails, m = 1..100", density), row("N_m in the lower tail, m = 1..100", distribution),
             row("1 - N_m in the upper tail, m = 1..100", survival)};
@@ -183,27 +178,12 @@ std::vector<Row> monotonicity(const Settings& settings, Random& random) {
         }
     }
     const double px = 2 * inverse_bound(100);
-    return {{"inverse in double: longest step back between neighbours",
-             Kind::check,
-             std::max(0.0, in_double.value()) * px,
-             px,
-             "px",
-             in_double.where(),
-             {}},
-            {"inverse in double: pairs 1 % apart out of order",
-             Kind::check,
-             std::max(0.0, strict.value()),
-             0.0,
-             "count",
-             strict.where(),
-             {}},
-            {"inverse in float: longest step back at a cell's border",
-             Kind::check,
-             std::max(0.0, in_float.value()),
-             2 * filter::kTableError,
-             "px",
-             in_float.where(),
-             {}}};
+    return {check("inverse in double: longest step back between neighbours", std::max(0.0, in_double.value()) * px, px,
+                  "px", in_double.where()),
+            check("inverse in double: pairs 1 % apart out of order", std::max(0.0, strict.value()), 0.0, "count",
+                  strict.where()),
+            check("inverse in float: longest step back at a cell's border", std::max(0.0, in_float.value()),
+                  2 * filter::kTableError, "px", in_float.where())};
 }
 
 // x(p) + x(1 - p) = m and N(x) + S(x) = 1: m - x and 1 - N are single roundings, since 1 - p is exact for multiples of
@@ -222,9 +202,9 @@ std::vector<Row> symmetry(const Settings& settings, Random& random) {
             density.see(std::abs(filter::bspline_pdf(m, dyadic) - filter::bspline_pdf(m, m - dyadic)), where);
         }
     }
-    return {{"symmetry: x(1 - p) against m - x(p)", Kind::check, inverse.value(), 0.0, "px", inverse.where(), {}},
-            {"symmetry: N + (1 - N) against 1", Kind::check, sum.value(), kEps, "", sum.where(), {}},
-            {"symmetry: n(m - x) against n(x)", Kind::check, density.value(), 0.0, "1/px", density.where(), {}}};
+    return {check("symmetry: x(1 - p) against m - x(p)", inverse, 0.0, "px"),
+            check("symmetry: N + (1 - N) against 1", sum, kEps, ""),
+            check("symmetry: n(m - x) against n(x)", density, 0.0, "1/px")};
 }
 
 // NaN gives NaN; what lies outside maps to the end of the support next to it; the float table, which promises the
@@ -251,8 +231,7 @@ std::vector<Row> not_a_number(const Settings& settings, Random&) {
             expect(std::abs(x) <= 0.5f * static_cast<float>(m), "the float table leaves the support");
         }
     }
-    return {
-        {"NaN, infinities, y = 0 and 1: wrong answers", Kind::check, wrong.value(), 0.0, "count", wrong.where(), {}}};
+    return {check("NaN, infinities, y = 0 and 1: wrong answers", wrong, 0.0, "count")};
 }
 
 }  // namespace
@@ -261,19 +240,15 @@ void add_bspline_cases(std::vector<Case>& cases) {
     const std::string group = "bspline";
     for (const std::array orders : {std::array{76, 100}, std::array{33, 75}, std::array{9, 32}, std::array{1, 8}}) {
         const int low = orders[0], high = orders[1];
-        cases.push_back({group,
-                         fmt::format("inverse in double, m = {}..{}", low, high),
-                         [=](const Settings& s, Random& r) { return inverse_in_double(low, high, s, r); },
-                         {}});
-        cases.push_back({group,
-                         fmt::format("strata, m = {}..{}", low, high),
-                         [=](const Settings& s, Random& r) { return strata_in_float(low, high, s, r); },
-                         {}});
+        cases.push_back({group, fmt::format("inverse in double, m = {}..{}", low, high),
+                         [=](const Settings& s, Random& r) { return inverse_in_double(low, high, s, r); }});
+        cases.push_back({group, fmt::format("strata, m = {}..{}", low, high),
+                         [=](const Settings& s, Random& r) { return strata_in_float(low, high, s, r); }});
     }
-    cases.push_back({group, "tails", tail_values, {}});
-    cases.push_back({group, "monotonicity", monotonicity, {}});
-    cases.push_back({group, "symmetry", symmetry, {}});
-    cases.push_back({group, "NaN", not_a_number, {}});
+    cases.push_back({group, "tails", tail_values});
+    cases.push_back({group, "monotonicity", monotonicity});
+    cases.push_back({group, "symmetry", symmetry});
+    cases.push_back({group, "NaN", not_a_number});
 }
 
 }  // namespace strata::tools::stability

@@ -6,6 +6,7 @@
 #include <functional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/parallel/cancel.h"
@@ -22,8 +23,8 @@ struct Row {
     double measured = 0.0;
     double bound = 0.0;  // checks: measured <= bound
     std::string unit;
-    std::string detail;  // the worst input, so that it can be replayed, and counts
-    std::string group;   // filled in by the runner
+    std::string detail;   // the worst input, so that it can be replayed, and counts
+    std::string group{};  // filled in by the runner
 
     bool pass() const { return kind == Kind::information || measured <= bound; }
 };
@@ -44,7 +45,7 @@ struct Case {
     std::string group;
     std::string name;
     std::function<std::vector<Row>(const Settings&, Random&)> run;
-    std::string simd_target;  // runs with it pinned; empty: the machine's best
+    std::string simd_target{};  // runs with it pinned; empty: the machine's best
 };
 
 // The largest of what it sees, and where. NaN counts as larger than everything.
@@ -70,6 +71,20 @@ class Worst {
     std::string where_;
     long count_ = 0;
 };
+
+// What was measured is to be no more than the bound.
+inline Row check(std::string name, double measured, double bound, std::string unit, std::string detail) {
+    return {std::move(name), Kind::check, measured, bound, std::move(unit), std::move(detail)};
+}
+inline Row check(std::string name, const Worst& worst, double bound, std::string unit) {
+    return check(std::move(name), worst.value(), bound, std::move(unit), worst.where());
+}
+inline Row information(std::string name, double measured, std::string unit, std::string detail) {
+    return {std::move(name), Kind::information, measured, 0.0, std::move(unit), std::move(detail)};
+}
+inline Row information(std::string name, const Worst& worst, std::string unit) {
+    return information(std::move(name), worst.value(), std::move(unit), worst.where());
+}
 
 // One function a file; each appends its cases.
 void add_bspline_cases(std::vector<Case>& cases);

@@ -1,20 +1,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <optional>
+#include <vector>
 
 #include "noise/simd_target.h"
 #include "src/image/image_error.h"
 #include "src/scene/key_text.h"
-#include "src/scene/suggest.h"
 #include "src/scene/typed_number.h"
 #include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/planned_files.h"
-#include "tools/cli/scene_argument.h"
+#include "tools/cli/shared_options.h"
 #include "tools/cli/standard_output.h"
 #include "tools/cli/status_line.h"
 #include "tools/stability/report.h"
@@ -27,7 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct StabilityRequest {
-    std::string folder, json, groups, seed = "1", threads = "0";
+    std::string folder, json;
+    std::vector<std::string> groups;
+    std::uint64_t seed = 1;
+    int threads = 0;
     bool fast = false, quiet = false;
 };
 
@@ -39,17 +40,7 @@ struct Output {
 std::vector<std::string> parse_groups(const std::string& text) {
     const std::vector<std::string> known = groups();
     std::vector<std::string> chosen;
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::string name = text.substr(begin, end - begin);
-        if (std::find(known.begin(), known.end(), name) == known.end()) {
-            const auto near = scene::nearest(name, known);
-            throw cli::UsageError(fmt::format("--only: '{}' is no group, allowed: {}{}", name, fmt::join(known, ", "),
-                                              near ? fmt::format(", did you mean '{}'?", *near) : ""));
-        }
-        chosen.push_back(name);
-        begin = end + 1;
-    }
+    for (const std::size_t i : cli::parse_names("--only", "group", text, known)) chosen.push_back(known[i]);
     return chosen;
 }
 
@@ -77,24 +68,22 @@ std::vector<Output> outputs_of(const StabilityRequest& request, cli::PlannedFile
 }
 
 int stability_command(const StabilityRequest& request) {
-    static parallel::CancelToken cancel;
-    parallel::cancel_on_signals(cancel);
-    const Settings settings{request.fast, parse_seed(request.seed), &cancel};
-    const int threads = cli::parse_integer("--threads", request.threads, 0, 1024);
-    const std::vector<Case> cases = cases_of(parse_groups(request.groups));
+    const parallel::CancelToken& cancel = cli::cancel_by_signals();
+    const Settings settings{request.fast, request.seed, &cancel};
+    const std::vector<Case> cases = cases_of(request.groups);
     cli::PlannedFiles files;
     const std::vector<Output> outputs = outputs_of(request, files);
     const Heading heading{fmt::format("{}", fmt::join(noise::simd_targets(), ", ")), settings.seed, settings.fast};
     cli::StatusLine line;
     const std::vector<Row> rows =
-        run_cases(cases, settings, threads, [&](std::size_t done, std::size_t total, const Case& next) {
+        run_cases(cases, settings, request.threads, [&](std::size_t done, std::size_t total, const Case& next) {
             if (!request.quiet) line.show(fmt::format("{}/{}  {}: {}", done, total, next.group, next.name));
         });
     line.clear();
     if (!request.quiet || failures(rows) > 0) cli::print_out(text_table(rows));
     if (cancel.requested()) {
         cli::print_error("interrupted: these are the cases that were finished; no file was written");
-        return cli::kExitSignal + parallel::cancelling_signal();
+        return cli::exit_code_of(true);
     }
     for (const Output& output : outputs) {
         const bool written = files.write(output.path, output.text(rows, heading));
@@ -105,31 +94,28 @@ int stability_command(const StabilityRequest& request) {
 
 }  // namespace
 
-void add_command(cli::Command& program, int& exit_code) {
+void add_command(cli::Command& program) {
     cli::Command* command =
         program.add_subcommand("stability", "Check the arithmetic on stiff and extreme cases against derived bounds");
     auto request = std::make_shared<StabilityRequest>();
-    command->add_option("-o,--output", request->folder, "Folder to write stability.md and stability.json to")
-        ->type_name("FOLDER");
-    command->add_option("--json", request->json, "Write the JSON to this file; - for standard output")
-        ->type_name("FILE");
-    command
-        ->add_option("--only", request->groups,
-                     fmt::format("Only these groups, separated by commas: {}", fmt::join(groups(), ", ")))
-        ->type_name("GROUP,...");
+    command->add_option("-o,--output", request->folder, "FOLDER", "Folder to write stability.md and stability.json to");
+    command->add_option("--json", request->json, "FILE", "Write the JSON to this file; - for standard output");
+    command->add_option(
+        "--only", [request](const std::string& text) { request->groups = parse_groups(text); }, "GROUP,...",
+        fmt::format("Only these groups, separated by commas: {}", fmt::join(groups(), ", ")));
     command->add_flag("--fast", request->fast, "Fewer inputs of every case: a few seconds");
-    command->add_option("--seed", request->seed, "Of the random inputs; the table is the same for the same seed")
-        ->capture_default_str()
-        ->type_name("S");
-    command->add_option("--threads", request->threads, "Threads, up to 1024; 0: as many as machine and container give")
-        ->capture_default_str()
-        ->type_name("n");
-    command->add_flag("--quiet", request->quiet, "No progress, and no table unless something failed");
+    command
+        ->add_option(
+            "--seed", [request](const std::string& text) { request->seed = parse_seed(text); }, "S",
+            "Of the random inputs; the table is the same for the same seed")
+        ->default_str("1");
+    cli::add_threads(*command, request->threads);
+    cli::add_quiet(*command, request->quiet, "No progress, and no table unless something failed");
     command->footer(
         "Each row: what was measured, the bound that the arithmetic or a stated contract gives, and in the files the\n"
         "worst input, often as a command that replays it. Rows marked info document the paper's method or a limit.\n"
         "Exit codes: 0 all checks passed, 1 a check failed, 2 wrong command line, 129, 130 or 143 interrupted.");
-    command->callback([request, &exit_code] { exit_code = stability_command(*request); });
+    command->action([request] { return stability_command(*request); });
 }
 
 }  // namespace strata::tools::stability

@@ -169,31 +169,16 @@ std::vector<Row> same_picture(const std::string& scene_name, const Motion& motio
     const double pixels = static_cast<double>(a.rays.size());
     std::vector<Row> rows = {at_rest.rows(name + ", its hits on the rays at rest").front()};
     if (motion.exact) {
-        rows.push_back({name + ": pixels that are not the same bits",
-                        Kind::check,
-                        static_cast<double>(different),
-                        0.0,
-                        "pixels",
-                        fmt::format("of {}", pixels),
-                        {}});
+        rows.push_back(check(name + ": pixels that are not the same bits", static_cast<double>(different), 0.0,
+                             "pixels", fmt::format("of {}", pixels)));
     } else {
-        rows.push_back({name + ": hits that are another silhouette's",
-                        Kind::information,
-                        100.0 * flips / pixels,
-                        0.0,
-                        "% of pixels",
-                        fmt::format("{} of {}", flips, pixels),
-                        {}});
+        rows.push_back(information(name + ": hits that are another silhouette's", 100.0 * flips / pixels, "% of pixels",
+                                   fmt::format("{} of {}", flips, pixels)));
     }
     if (height_field && !motion.exact) {
-        rows.push_back({name + ": radiance, share of its bound",
-                        Kind::check,
-                        ratio.value(),
-                        1.0,
-                        "of bound",
-                        fmt::format("largest difference {:.3g} of radiance up to 1; bounds up to {:.3g}; {}",
-                                    radiance.value(), largest, ratio.where()),
-                        {}});
+        rows.push_back(check(name + ": radiance, share of its bound", ratio.value(), 1.0, "of bound",
+                             fmt::format("largest difference {:.3g} of radiance up to 1; bounds up to {:.3g}; {}",
+                                         radiance.value(), largest, ratio.where())));
     }
     return rows;
 }
@@ -207,13 +192,9 @@ std::vector<Row> with_shadows(const Motion& motion, const Settings& settings, Ra
     int different = 0;
     for (std::size_t i = 0; i < a.radiance.size(); ++i)
         different += std::abs(a.radiance[i] - b.radiance[i]) > 1.0 / 255.0;
-    return {{"terrain " + motion.name + ", shadows: pixel centres off by more than 1/255",
-             Kind::information,
-             100.0 * different / static_cast<double>(a.radiance.size()),
-             0.0,
-             "% of pixels",
-             fmt::format("{} of {}", different, a.radiance.size()),
-             {}}};
+    return {information("terrain " + motion.name + ", shadows: pixel centres off by more than 1/255",
+                        100.0 * different / static_cast<double>(a.radiance.size()), "% of pixels",
+                        fmt::format("{} of {}", different, a.radiance.size()))};
 }
 
 // 2^20 base cells are 2^22 surface units at a frequency of 1/4.
@@ -241,17 +222,13 @@ const std::vector<Motion>& motions() {
 void add_invariance_cases(std::vector<Case>& cases) {
     for (const char* name : {"terrain", "hyperterrain", "planet", "isosurface"}) {
         for (const Motion& motion : motions()) {
-            cases.push_back({"invariance",
-                             std::string(name) + " " + motion.name,
-                             [=](const Settings& s, Random& r) { return same_picture(name, motion, s, r); },
-                             {}});
+            cases.push_back({"invariance", std::string(name) + " " + motion.name,
+                             [=](const Settings& s, Random& r) { return same_picture(name, motion, s, r); }});
         }
     }
     for (const Motion& motion : motions()) {
-        cases.push_back({"invariance",
-                         "shadows " + motion.name,
-                         [=](const Settings& s, Random& r) { return with_shadows(motion, s, r); },
-                         {}});
+        cases.push_back({"invariance", "shadows " + motion.name,
+                         [=](const Settings& s, Random& r) { return with_shadows(motion, s, r); }});
     }
 }
 

@@ -54,20 +54,9 @@ std::vector<Row> instant(const Settings& settings, Random&) {
             }
         }
     }
-    return {{"shutter 0: samples not at the frame's instant",
-             Kind::check,
-             spun,
-             0.0,
-             "samples",
-             "wheel, frames 0, 1, 7, 10^6",
-             {}},
-            {"shutter 0: pixels that differ from the instant's",
-             Kind::check,
-             different,
-             0.0,
-             "pixels",
-             "wheel, frames 0, 1, 7, 10^6",
-             {}}};
+    return {check("shutter 0: samples not at the frame's instant", spun, 0.0, "samples", "wheel, frames 0, 1, 7, 10^6"),
+            check("shutter 0: pixels that differ from the instant's", different, 0.0, "pixels",
+                  "wheel, frames 0, 1, 7, 10^6")};
 }
 
 // Mean and variance of the times against l s^2 / 12, and the support. One sample in each of n strata of probability:
@@ -104,27 +93,10 @@ std::vector<Row> distribution(const Settings& settings, Random& random) {
                 std::abs(squares / n - order * s * s / 12.0) / (2.0 * half * half / n + 2.0 * half * table), where);
         }
     }
-    return {{"times of order l = 1..8: mean, share of its bound",
-             Kind::check,
-             mean_error.value(),
-             1.0,
-             "of bound",
-             mean_error.where(),
-             {}},
-            {"times of order l = 1..8: variance l s^2 / 12, share of its bound",
-             Kind::check,
-             variance_error.value(),
-             1.0,
-             "of bound",
-             variance_error.where(),
-             {}},
-            {"times of order l = 1..8: beyond the support l s",
-             Kind::check,
-             std::max(0.0, beyond.value()),
-             (filter::kTableError + 1e-12) * 0.033,
-             "s",
-             beyond.where(),
-             {}}};
+    return {check("times of order l = 1..8: mean, share of its bound", mean_error, 1.0, "of bound"),
+            check("times of order l = 1..8: variance l s^2 / 12, share of its bound", variance_error, 1.0, "of bound"),
+            check("times of order l = 1..8: beyond the support l s", std::max(0.0, beyond.value()),
+                  (filter::kTableError + 1e-12) * 0.033, "s", beyond.where())};
 }
 
 // The same draws late in a film: a time is t_k and s/2 and s (x - l/2) added up in double, three roundings of its size.
@@ -144,20 +116,9 @@ std::vector<Row> late_frames(const Settings&, Random&) {
         }
         bound = 3.0 * 0x1p-53 * t;
     }
-    return {{"late frames: sample times, share of three roundings",
-             Kind::check,
-             worst.value(),
-             1.0,
-             "of bound",
-             worst.where(),
-             {}},
-            {"late frames: what a time can tell apart at 1e12 s, the latest",
-             Kind::information,
-             bound,
-             0.0,
-             "s",
-             "frame 10^9 at 0.001 frames/s",
-             {}}};
+    return {check("late frames: sample times, share of three roundings", worst, 1.0, "of bound"),
+            information("late frames: what a time can tell apart at 1e12 s, the latest", bound, "s",
+                        "frame 10^9 at 0.001 frames/s")};
 }
 
 // A square column, solid, that turns once about its axis while the shutter is open, seen by level rays: at distance d
@@ -217,13 +178,8 @@ std::vector<Row> whole_turn(int frame, const Settings& settings, Random& random)
                                cover);
         });
     }
-    return {{fmt::format("one full turn in frame {}: the column's cover, share of six sigma", frame),
-             Kind::check,
-             worst.value(),
-             1.0,
-             "of bound",
-             worst.where(),
-             {}}};
+    return {check(fmt::format("one full turn in frame {}: the column's cover, share of six sigma", frame), worst, 1.0,
+                  "of bound")};
 }
 
 // The wheel, a whole number of spokes a shutter: every pixel between hub and rim is 1 - spoke_fill on average. Over all
@@ -251,35 +207,23 @@ std::vector<Row> even_disc(const Settings& settings, Random& random) {
                       [&] { return fmt::format("pixel {},{}: {:.6f}", x, y, 0.6 + error); });
         }
     }
-    return {{"the wheel, one full turn in a frame: mean of the disc",
-             Kind::check,
-             std::abs(sum / count),
-             6.0 * std::sqrt(variance / count),
-             "radiance",
-             fmt::format("{} pixels of {} samples, expected 0.6", count, n),
-             {}},
-            {"the wheel, one full turn in a frame: any pixel, share of seven sigma",
-             Kind::check,
-             worst.value(),
-             1.0,
-             "of bound",
-             worst.where(),
-             {}}};
+    return {check("the wheel, one full turn in a frame: mean of the disc", std::abs(sum / count),
+                  6.0 * std::sqrt(variance / count), "radiance",
+                  fmt::format("{} pixels of {} samples, expected 0.6", count, n)),
+            check("the wheel, one full turn in a frame: any pixel, share of seven sigma", worst, 1.0, "of bound")};
 }
 
 }  // namespace
 
 void add_motion_cases(std::vector<Case>& cases) {
-    cases.push_back({"motion", "shutter 0", instant, {}});
-    cases.push_back({"motion", "orders", distribution, {}});
-    cases.push_back({"motion", "late frames", late_frames, {}});
+    cases.push_back({"motion", "shutter 0", instant});
+    cases.push_back({"motion", "orders", distribution});
+    cases.push_back({"motion", "late frames", late_frames});
     for (const int frame : {3, 1000000}) {
-        cases.push_back({"motion",
-                         fmt::format("whole turn of a column, frame {}", frame),
-                         [=](const Settings& s, Random& r) { return whole_turn(frame, s, r); },
-                         {}});
+        cases.push_back({"motion", fmt::format("whole turn of a column, frame {}", frame),
+                         [=](const Settings& s, Random& r) { return whole_turn(frame, s, r); }});
     }
-    cases.push_back({"motion", "whole turn of the wheel", even_disc, {}});
+    cases.push_back({"motion", "whole turn of the wheel", even_disc});
 }
 
 }  // namespace strata::tools::stability

@@ -138,14 +138,10 @@ std::vector<Row> against_long_double(const Settings& settings, Random& random, c
     for (const bool is_far : {false, true}) {
         for (std::size_t i = 0; i < 3; ++i) {
             const Worst& worst = is_far ? far[i] : near[i];
-            rows.push_back({fmt::format("{} {}-D {} {}", target, D, kNames[i],
-                                        is_far ? "2^31 to 2^51 cells away, both signs" : "at planes, edges, corners"),
-                            Kind::check,
-                            worst.value(),
-                            kBounds[i],
-                            "absolute",
-                            worst.where(),
-                            {}});
+            rows.push_back(
+                check(fmt::format("{} {}-D {} {}", target, D, kNames[i],
+                                  is_far ? "2^31 to 2^51 cells away, both signs" : "at planes, edges, corners"),
+                      worst, kBounds[i], "absolute"));
         }
     }
     return rows;
@@ -198,21 +194,11 @@ std::vector<Row> continuity(const Settings& settings, Random& random, const std:
     std::vector<Row> rows;
     constexpr std::array<const char*, 3> kNames = {"value", "gradient", "Hessian"};
     for (std::size_t i = 0; i < 3; ++i) {
-        rows.push_back({fmt::format("{} {}-D {}: jump across planes, edges, corners (C2)", target, D, kNames[i]),
-                        Kind::check,
-                        jump[i].value() * bound[i],
-                        bound[i],
-                        "absolute",
-                        jump[i].where(),
-                        {}});
+        rows.push_back(check(fmt::format("{} {}-D {}: jump across planes, edges, corners (C2)", target, D, kNames[i]),
+                             jump[i].value() * bound[i], bound[i], "absolute", jump[i].where()));
     }
-    rows.push_back({fmt::format("{} {}-D value 0 and corner's own gradient in corners", target, D),
-                    Kind::check,
-                    corner.value(),
-                    0.0,
-                    "absolute",
-                    corner.where(),
-                    {}});
+    rows.push_back(
+        check(fmt::format("{} {}-D value 0 and corner's own gradient in corners", target, D), corner, 0.0, "absolute"));
     return rows;
 }
 
@@ -261,20 +247,10 @@ std::vector<Row> zero_gradients(const Settings& settings, Random& random, const 
         ++found;
         slope.see(errors<D>(jet, at).slope, where);
     }
-    return {{fmt::format("{} {}-D gradient where it vanishes", target, D),
-             Kind::check,
-             slope.value(),
-             kFloatErrors<D>.slope,
-             "absolute",
-             fmt::format("{} critical points; {}", found, slope.where()),
-             {}},
-            {fmt::format("{} {}-D slope along directions across the gradient", target, D),
-             Kind::check,
-             directional.value(),
-             kFloatErrors<D>.slope,
-             "absolute",
-             directional.where(),
-             {}}};
+    return {check(fmt::format("{} {}-D gradient where it vanishes", target, D), slope.value(), kFloatErrors<D>.slope,
+                  "absolute", fmt::format("{} critical points; {}", found, slope.where())),
+            check(fmt::format("{} {}-D slope along directions across the gradient", target, D), directional,
+                  kFloatErrors<D>.slope, "absolute")};
 }
 
 }  // namespace

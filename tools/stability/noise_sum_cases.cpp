@@ -82,13 +82,8 @@ std::vector<Row> sums(const Settings& settings, Random& random, const std::strin
                                    origin[2], offset[0], offset[1], offset[2]);
             });
         }
-        rows.push_back({fmt::format("{} 3-D sum of {}", target, sum.name),
-                        Kind::check,
-                        worst.value() * largest,
-                        largest,
-                        "absolute",
-                        worst.where(),
-                        {}});
+        rows.push_back(check(fmt::format("{} 3-D sum of {}", target, sum.name), worst.value() * largest, largest,
+                             "absolute", worst.where()));
     }
     return rows;
 }

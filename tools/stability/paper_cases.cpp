@@ -47,7 +47,7 @@ std::vector<Row> newton(int m, const Settings& settings, Random& random) {
     }
     const std::string name = fmt::format("the paper's Newton, m = {}: ", m);
     const auto row = [&](const std::string& what, double measured, const char* unit, const std::string& detail) {
-        return Row{name + what, Kind::information, measured, 0.0, unit, detail, {}};
+        return information(name + what, measured, unit, detail);
     };
     return {row("uniform y that need more than 8 steps", 100.0 * more / draws, "%",
                 fmt::format("{} of {}; {} never converge", more, draws, lost)),
@@ -97,32 +97,23 @@ std::vector<Row> truncated_powers(const Settings& settings, Random&) {
         first(lost_double, in_double, 1.0);
     }
     const auto row = [&](const char* name, int order) {
-        return Row{name, Kind::information, static_cast<double>(order), 0.0, "order m", "at x = m i / 16, i = 1..15",
-                   {}};
+        return information(name, static_cast<double>(order), "order m", "at x = m i / 16, i = 1..15");
     };
     return {row("truncated powers in float: 1 % off from", percent_float),
             row("truncated powers in float: no digit left from", lost_float),
             row("truncated powers in double: 1 % off from", percent_double),
             row("truncated powers in double: no digit left from", lost_double),
-            {"the triangle at the same points, m = 2..100",
-             Kind::check,
-             triangle.value(),
-             16 * 0x1p-52,
-             "relative",
-             triangle.where(),
-             {}}};
+            check("the triangle at the same points, m = 2..100", triangle, 16 * 0x1p-52, "relative")};
 }
 
 }  // namespace
 
 void add_paper_cases(std::vector<Case>& cases) {
     for (const int m : {2, 3, 4, 8, 15, 20, 50, 100}) {
-        cases.push_back({"bspline",
-                         fmt::format("the paper's Newton, m = {}", m),
-                         [=](const Settings& s, Random& r) { return newton(m, s, r); },
-                         {}});
+        cases.push_back({"bspline", fmt::format("the paper's Newton, m = {}", m),
+                         [=](const Settings& s, Random& r) { return newton(m, s, r); }});
     }
-    cases.push_back({"bspline", "truncated powers", truncated_powers, {}});
+    cases.push_back({"bspline", "truncated powers", truncated_powers});
 }
 
 }  // namespace strata::tools::stability

@@ -118,15 +118,10 @@ std::vector<Row> random_scenes(const std::string& name, const Settings& settings
     }
     const std::string counts = fmt::format("{} scenes, {} more refused; {} rays, {} hits, {} judged in part; {}",
                                            rendered, refused, rays, hits, in_part, where);
-    return {{name + ": broken promises", Kind::check, broken, 0.0, "rays", counts, {}},
-            {name + ": not settled in 2^15 steps",
-             Kind::information,
-             100.0 * unresolved / std::max(1.0, static_cast<double>(rays)),
-             0.0,
-             "% of rays",
-             counts,
-             {}},
-            {name + ": radiance that is not finite", Kind::check, not_finite, 0.0, "rays", counts, {}}};
+    return {check(name + ": broken promises", broken, 0.0, "rays", counts),
+            information(name + ": not settled in 2^15 steps",
+                        100.0 * unresolved / std::max(1.0, static_cast<double>(rays)), "% of rays", counts),
+            check(name + ": radiance that is not finite", not_finite, 0.0, "rays", counts)};
 }
 
 }  // namespace
@@ -134,7 +129,7 @@ std::vector<Row> random_scenes(const std::string& name, const Settings& settings
 void add_random_scene_cases(std::vector<Case>& cases) {
     for (int part = 1; part <= 4; ++part) {
         const std::string name = fmt::format("keys anywhere in their ranges, part {}", part);
-        cases.push_back({"tracing", name, [=](const Settings& s, Random& r) { return random_scenes(name, s, r); }, {}});
+        cases.push_back({"tracing", name, [=](const Settings& s, Random& r) { return random_scenes(name, s, r); }});
     }
 }
 

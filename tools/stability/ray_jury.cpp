@@ -122,20 +122,10 @@ std::vector<Row> RayJury::rows(const std::string& name) const {
     // A family without rays or hits has shown nothing.
     const double broken =
         hits_ > 0 ? static_cast<double>(violations_ + unresolved_) : std::numeric_limits<double>::quiet_NaN();
-    return {{name + ": broken promises, unresolved",
-             Kind::check,
-             broken,
-             0.0,
-             "rays",
-             violation_.empty() ? counts : violation_ + "; " + counts,
-             {}},
-            {name + ": most steps of a ray",
-             Kind::information,
-             most_steps_.value(),
-             0.0,
-             "steps",
-             fmt::format("mean {:.1f}; {}", steps_ / rays, most_steps_.where()),
-             {}}};
+    return {check(name + ": broken promises, unresolved", broken, 0.0, "rays",
+                  violation_.empty() ? counts : violation_ + "; " + counts),
+            information(name + ": most steps of a ray", most_steps_.value(), "steps",
+                        fmt::format("mean {:.1f}; {}", steps_ / rays, most_steps_.where()))};
 }
 
 }  // namespace strata::tools::stability

@@ -61,9 +61,8 @@ std::string text_table(const std::vector<Row>& rows) {
 std::string markdown_table(const std::vector<Row>& rows, const Heading& heading) {
     std::string text = fmt::format(
         "# Numerical stability\n\n`strata stability{}{}`, strata {}, SIMD targets {}: {}.\n\nA bound is derived from "
-        "the "
-        "arithmetic or a stated contract, beside the case in `tools/stability/`. Rows without one document the paper's "
-        "method, or how often a limit is met.\n",
+        "the arithmetic or a stated contract, beside the case in `tools/stability/`. Rows without one document the "
+        "paper's method, or how often a limit is met.\n",
         heading.fast ? " --fast" : "", heading.seed == 1 ? "" : fmt::format(" --seed {}", heading.seed), STRATA_VERSION,
         heading.simd_targets, summary(rows));
     std::string group;

@@ -118,28 +118,13 @@ std::vector<Row> self_shadow(const SceneSpec& spec, const std::string& name, con
     const double n = std::max(1, points);
     std::vector<Row> rows = jury.rows(name + ", shadow rays");
     const std::string counts = fmt::format("{} points that face the sun, {} in shadow", points, shadowed);
-    rows.push_back({name + ": acne where delta does not decide",
-                    Kind::check,
-                    acne.value(),
-                    0.0,
-                    "points",
-                    counts + "; " + acne.where(),
-                    {}});
-    rows.push_back({name + ": light leaks where delta does not decide",
-                    Kind::check,
-                    leak.value(),
-                    0.0,
-                    "points",
-                    counts + "; " + leak.where(),
-                    {}});
-    rows.push_back({name + ": delta decides", Kind::information, 100.0 * within / n, 0.0, "% of points", counts, {}});
-    rows.push_back({name + ": differs from the exact point's light",
-                    Kind::information,
-                    100.0 * differs / n,
-                    0.0,
-                    "% of points",
-                    counts,
-                    {}});
+    rows.push_back(
+        check(name + ": acne where delta does not decide", acne.value(), 0.0, "points", counts + "; " + acne.where()));
+    rows.push_back(check(name + ": light leaks where delta does not decide", leak.value(), 0.0, "points",
+                         counts + "; " + leak.where()));
+    rows.push_back(information(name + ": delta decides", 100.0 * within / n, "% of points", counts));
+    rows.push_back(
+        information(name + ": differs from the exact point's light", 100.0 * differs / n, "% of points", counts));
     return rows;
 }
 
@@ -162,13 +147,8 @@ std::vector<Row> smooth(const SceneSpec& spec, const std::string& name, const Se
         if (shadowed) worst.see(1.0, [&] { return jury.replay(d.pixel); });
     }
     const double measured = points > 0 ? static_cast<double>(false_shadows) : std::nan("");
-    return {{name + ": in shadow though they face the sun",
-             Kind::check,
-             measured,
-             0.0,
-             "points",
-             fmt::format("{} points; {}", points, worst.where()),
-             {}}};
+    return {check(name + ": in shadow though they face the sun", measured, 0.0, "points",
+                  fmt::format("{} points; {}", points, worst.where()))};
 }
 
 SceneSpec spec_of(const std::string& name, std::vector<std::string> sets) {
@@ -180,7 +160,7 @@ SceneSpec spec_of(const std::string& name, std::vector<std::string> sets) {
 
 void add_shadow_cases(std::vector<Case>& cases) {
     const auto add = [&](const std::string& name, const SceneSpec& spec, auto run) {
-        cases.push_back({"shadow", name, [=](const Settings& s, Random& r) { return run(spec, name, s, r); }, {}});
+        cases.push_back({"shadow", name, [=](const Settings& s, Random& r) { return run(spec, name, s, r); }});
     };
     add("terrain, sun of the scene", spec_of("terrain", {}), self_shadow);
     add("terrain, sun 3 degrees high", spec_of("terrain", {"sun.direction=[-1,0.0524,0.2]"}), self_shadow);

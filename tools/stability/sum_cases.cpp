@@ -77,20 +77,8 @@ std::vector<Row> mixed(EstimatorKind kind, const std::string& name, const Settin
             }
         }
     }
-    return {{name + ", N = 64, radiance 1e6 and 1e-6 mixed",
-             Kind::check,
-             in_film.value(),
-             bound,
-             "relative",
-             in_film.where(),
-             {}},
-            {name + ", N = 64: a film that added up in float",
-             Kind::information,
-             in_float.value(),
-             0.0,
-             "relative",
-             in_float.where(),
-             {}}};
+    return {check(name + ", N = 64, radiance 1e6 and 1e-6 mixed", in_film, bound, "relative"),
+            information(name + ", N = 64: a film that added up in float", in_float, "relative")};
 }
 
 class Constant final : public integrate::ImageFunction {
@@ -130,13 +118,7 @@ std::vector<Row> constant(const Settings& settings, Random&) {
             }
         }
     }
-    return {{"a constant picture, every estimator, m = 1..100, N = 1..64",
-             Kind::check,
-             worst.value(),
-             0.0,
-             "relative",
-             worst.where(),
-             {}}};
+    return {check("a constant picture, every estimator, m = 1..100, N = 1..64", worst, 0.0, "relative")};
 }
 
 }  // namespace
@@ -145,9 +127,9 @@ void add_sum_cases(std::vector<Case>& cases) {
     for (const EstimatorKind kind :
          {EstimatorKind::stratified, EstimatorKind::uniform, EstimatorKind::jittered, EstimatorKind::shared}) {
         const std::string name(scene::name_of(kind));
-        cases.push_back({"sums", name, [=](const Settings& s, Random& r) { return mixed(kind, name, s, r); }, {}});
+        cases.push_back({"sums", name, [=](const Settings& s, Random& r) { return mixed(kind, name, s, r); }});
     }
-    cases.push_back({"sums", "constant", constant, {}});
+    cases.push_back({"sums", "constant", constant});
 }
 
 }  // namespace strata::tools::stability

@@ -88,14 +88,9 @@ std::vector<Row> step_statistics(const std::string& scene_name, const Settings& 
         fmt::format("mean {:.1f}, median {}, 99.9 % {} of {} pixels; ", sum / n, steps[steps.size() / 2].first,
                     steps[steps.size() * 999 / 1000].first, n);
     const std::string worst = jury.replay(pixels[steps.back().second]);
-    return {{scene_name + " 1920x1080: most steps of a pixel",
-             Kind::information,
-             static_cast<double>(steps.back().first),
-             0.0,
-             "steps",
-             statistics + worst,
-             {}},
-            {scene_name + " 1920x1080: unresolved pixels", Kind::check, unresolved, 0.0, "pixels", worst, {}}};
+    return {information(scene_name + " 1920x1080: most steps of a pixel", static_cast<double>(steps.back().first),
+                        "steps", statistics + worst),
+            check(scene_name + " 1920x1080: unresolved pixels", unresolved, 0.0, "pixels", worst)};
 }
 
 // Tangents of a smooth ball of Earth's radius, lifted or sunk by 1e-12 to 1e-5 m, at the finest tolerance: how deep a
@@ -131,20 +126,10 @@ std::vector<Row> tangents(const Settings& settings, Random& random) {
     }
     // The rounding of f, and that of the ray's unit direction, 2^-53 an axis over up to 1e6 m.
     const double bound = jury.rounding(2.0 * kEarth) + 2.0 * 0x1p-53 * 1e6;
-    return {{"Earth without relief, tolerance 1e-12: deepest chord passed over",
-             Kind::check,
-             std::max(0.0, passed.value()),
-             bound,
-             "m",
-             passed.where(),
-             {}},
-            {"Earth without relief, tolerance 1e-12: highest hit beside it",
-             Kind::check,
-             std::max(0.0, imagined.value()),
-             bound,
-             "m",
-             imagined.where(),
-             {}}};
+    return {check("Earth without relief, tolerance 1e-12: deepest chord passed over", std::max(0.0, passed.value()),
+                  bound, "m", passed.where()),
+            check("Earth without relief, tolerance 1e-12: highest hit beside it", std::max(0.0, imagined.value()),
+                  bound, "m", imagined.where())};
 }
 
 struct Extreme {
@@ -234,12 +219,10 @@ void add_tracing_cases(std::vector<Case>& cases) {
                                Place{"orbit, 36,000 km", 3.6e7, {0.0, -1.0, 0.15}, 10.0},
                                Place{"2 m above the ground", 2.0, {0.0, -0.02, 1.0}, 50.0},
                                Place{"2 m through a telescope", 2.0, {0.0, -0.0008, 1.0}, 0.1}}) {
-        cases.push_back({"tracing",
-                         "Earth from " + place.name,
-                         [=](const Settings& s, Random& r) { return earth(place, s, r); },
-                         {}});
+        cases.push_back(
+            {"tracing", "Earth from " + place.name, [=](const Settings& s, Random& r) { return earth(place, s, r); }});
     }
-    cases.push_back({"tracing", "tangents of Earth", tangents, {}});
+    cases.push_back({"tracing", "tangents of Earth", tangents});
     add("Earth in metres, grazing to 1e-6", {}, earth_spec(), grazing_rays, 1000, 20);
     add("Earth in metres, from on and in the surface", {}, earth_spec(), starting_rays, 1000, 20);
     for (const Extreme& extreme : extremes()) add(extreme.name, {}, extreme.spec, extreme.make, 800, 25);
@@ -247,10 +230,8 @@ void add_tracing_cases(std::vector<Case>& cases) {
     for (const char* name : {"terrain"})
         add(std::string(name) + ", along ridges", {}, surface_spec(name), ridge_rays, 800, 20);
     for (const char* name : {"terrain", "hyperterrain", "planet", "isosurface"}) {
-        cases.push_back({"tracing",
-                         std::string("steps, ") + name,
-                         [=](const Settings& s, Random& r) { return step_statistics(name, s, r); },
-                         {}});
+        cases.push_back({"tracing", std::string("steps, ") + name,
+                         [=](const Settings& s, Random& r) { return step_statistics(name, s, r); }});
     }
     const std::vector<std::string> targets = noise::simd_targets();
     for (std::size_t i = 1; i < targets.size(); ++i) add_families(targets[i] + ": ", targets[i], 800, 20);

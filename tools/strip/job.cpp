@@ -31,10 +31,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMostColumns = 64;
-constexpr int kMostZoom = 64;
 constexpr int kPanelWidth = 256;  // that the automatic zoom keeps to
 
-StripSource from_file(const std::string& typed, bool quiet) {
+Source from_file(const std::string& typed, bool quiet) {
     const auto spooled = cli::spool_stream(typed);
     const fs::path path = spooled.value_or(typed);
     job::ForeignPicture picture = job::read_foreign_picture(path, typed, quiet);
@@ -45,7 +44,7 @@ StripSource from_file(const std::string& typed, bool quiet) {
             .picture = std::move(picture.linear)};
 }
 
-StripSource from_settings(const cli::LoadedScene& loaded, const job::ColumnSettings& settings, const char* origin) {
+Source from_settings(const cli::LoadedScene& loaded, const job::ColumnSettings& settings, const char* origin) {
     return {.name = settings.text,
             .label = settings.label,
             .file = {},
@@ -57,12 +56,12 @@ void require(bool condition, const char* message) {
     if (!condition) throw cli::UsageError(message);
 }
 
-std::vector<StripSource> find_columns(const StripRequest& request, const std::optional<cli::LoadedScene>& loaded) {
-    std::vector<StripSource> columns;
+std::vector<Source> find_columns(const Request& request, const std::optional<cli::LoadedScene>& loaded) {
+    std::vector<Source> columns;
     for (const std::string& path : request.pictures) columns.push_back(from_file(path, request.quiet));
     std::vector<std::optional<scene::Scene>> scenes;
     std::vector<std::string> names;
-    for (const StripSource& column : columns) {
+    for (const Source& column : columns) {
         scenes.push_back(column.scene);
         names.push_back(column.label);
     }
@@ -77,7 +76,7 @@ std::vector<StripSource> find_columns(const StripRequest& request, const std::op
     return columns;
 }
 
-void replace_labels(const std::string& text, std::vector<StripSource>& columns) {
+void replace_labels(const std::string& text, std::vector<Source>& columns) {
     if (text.empty()) return;
     std::vector<std::string> labels(1);
     for (const char c : text) {
@@ -93,7 +92,7 @@ void replace_labels(const std::string& text, std::vector<StripSource>& columns) 
 }
 
 // A column by its number or its words, a file, or settings to be rendered.
-void find_reference(const StripRequest& request, const std::optional<cli::LoadedScene>& loaded, StripJob& job) {
+void find_reference(const Request& request, const std::optional<cli::LoadedScene>& loaded, Job& job) {
     const std::string& text = request.reference;
     if (text.empty()) {
         require(!request.difference && !request.rmse,
@@ -106,7 +105,7 @@ void find_reference(const StripRequest& request, const std::optional<cli::Loaded
         job.reference_column = static_cast<std::size_t>(*number - 1);
         return;
     }
-    const auto named = [&](const StripSource& column) { return column.name == text || column.label == text; };
+    const auto named = [&](const Source& column) { return column.name == text || column.label == text; };
     const auto column = std::ranges::find_if(job.columns, named);
     if (column != job.columns.end()) {
         job.reference_column = static_cast<std::size_t>(column - job.columns.begin());
@@ -124,7 +123,7 @@ struct Extent {
     film::Rect window;
 };
 
-Extent extent_of(const StripSource& source) {
+Extent extent_of(const Source& source) {
     if (!source.file.empty()) {
         const image::Picture& p = source.picture;
         return {p.frame_width, p.frame_height, {p.x0, p.y0, p.x1, p.y1}};
@@ -147,7 +146,7 @@ image::Picture cut(const image::Picture& whole, const film::Rect& w) {
 }
 
 // Without --crop crops compare by their pixels, wherever they lie; with it all must have the same frame.
-void require_equal_sizes(const StripSource& first, const StripSource& other, bool has_crop) {
+void require_equal_sizes(const Source& first, const Source& other, bool has_crop) {
     const Extent a = extent_of(first), b = extent_of(other);
     const bool equal = has_crop ? a.frame_width == b.frame_width && a.frame_height == b.frame_height
                                 : a.window.width() == b.window.width() && a.window.height() == b.window.height();
@@ -160,12 +159,12 @@ void require_equal_sizes(const StripSource& first, const StripSource& other, boo
                                       first.name, size(a), other.name, size(b)));
 }
 
-void apply_crop(const StripRequest& request, StripJob& job) {
-    std::vector<StripSource*> sources;
-    for (StripSource& column : job.columns) sources.push_back(&column);
+void apply_crop(const Request& request, Job& job) {
+    std::vector<Source*> sources;
+    for (Source& column : job.columns) sources.push_back(&column);
     if (job.reference) sources.push_back(&*job.reference);
     const bool has_crop = !request.crop.empty();
-    for (const StripSource* source : sources) require_equal_sizes(*sources.front(), *source, has_crop);
+    for (const Source* source : sources) require_equal_sizes(*sources.front(), *source, has_crop);
 
     const Extent first = extent_of(*sources.front());
     job.frame_width = first.frame_width;
@@ -178,7 +177,7 @@ void apply_crop(const StripRequest& request, StripJob& job) {
         job.window = cli::parse_crop("--crop", request.crop, frame);
     }
     const film::Rect& w = job.window;
-    for (StripSource* source : sources) {
+    for (Source* source : sources) {
         if (source->file.empty() || !has_crop) continue;
         const film::Rect has = extent_of(*source).window;
         if (w.x0 < has.x0 || w.y0 < has.y0 || w.x1 > has.x1 || w.y1 > has.y1)
@@ -186,11 +185,6 @@ void apply_crop(const StripRequest& request, StripJob& job) {
                                               source->name, has.x0, has.y0, has.x1, has.y1));
         source->picture = cut(source->picture, w);
     }
-}
-
-int choose_zoom(const StripRequest& request, const film::Rect& window) {
-    if (request.zoom.empty()) return std::clamp(kPanelWidth / window.width(), 1, 16);
-    return cli::parse_integer("--zoom", request.zoom, 1, kMostZoom);
 }
 
 std::optional<double> parse_top(const std::string& text) {
@@ -201,7 +195,7 @@ std::optional<double> parse_top(const std::string& text) {
     return value;
 }
 
-std::string default_caption(const StripJob& job) {
+std::string default_caption(const Job& job) {
     const film::Rect& w = job.window;
     std::string text = w == film::Rect{0, 0, job.frame_width, job.frame_height}
                            ? fmt::format("{}×{} pixels", w.width(), w.height())
@@ -212,7 +206,7 @@ std::string default_caption(const StripJob& job) {
 }
 
 // An overscan EXR of another program, whose pixels lie outside its frame, can be shown but not be a part.
-void check_part(const StripJob& job, const StripSource& source, const fs::path& path) {
+void check_part(const Job& job, const Source& source, const fs::path& path) {
     image::check_writable(path);
     const film::Rect& w = job.window;
     const image::PictureShape rendered{job.frame_width, job.frame_height, w.x0, w.y0, w.x1, w.y1};
@@ -224,7 +218,7 @@ void check_part(const StripJob& job, const StripSource& source, const fs::path& 
     }
 }
 
-void check_outputs(const StripJob& job) {
+void check_outputs(const Job& job) {
     try {
         image::check_canvas_format(job.output);
     } catch (const image::ImageError& error) {
@@ -237,10 +231,10 @@ void check_outputs(const StripJob& job) {
 }
 
 // Nothing that is read is written over.
-void check_inputs_stay(const StripJob& job) {
+void check_inputs_stay(const Job& job) {
     const std::vector<fs::path> outputs = strip_files(job);
     std::vector<fs::path> inputs;
-    for (const StripSource& column : job.columns) inputs.push_back(column.file);
+    for (const Source& column : job.columns) inputs.push_back(column.file);
     if (job.reference) inputs.push_back(job.reference->file);
     for (const fs::path& input : inputs) {
         for (const fs::path& output : outputs) {
@@ -252,13 +246,13 @@ void check_inputs_stay(const StripJob& job) {
 
 }  // namespace
 
-fs::path part_path(const StripJob& job, std::optional<std::size_t> i) {
+fs::path part_path(const Job& job, std::optional<std::size_t> i) {
     const std::string which = i ? fmt::format("{:0{}}", *i + 1, job.columns.size() > 9 ? 2 : 1) : "reference";
     const fs::path sheet = image::stream_target(job.output) ? fs::path("strip.png") : job.output;
     return image::derived_path(sheet, fmt::format("-{}.exr", which));
 }
 
-std::vector<fs::path> strip_files(const StripJob& job) {
+std::vector<fs::path> strip_files(const Job& job) {
     std::vector<fs::path> files{job.output};
     if (!job.parts) return files;
     for (std::size_t i = 0; i < job.columns.size(); ++i) files.push_back(part_path(job, i));
@@ -266,20 +260,19 @@ std::vector<fs::path> strip_files(const StripJob& job) {
     return files;
 }
 
-StripJob prepare_strip(const StripRequest& request) {
+Job prepare_strip(const Request& request) {
     require(!request.pictures.empty() || request.has_scene, "nothing to show: give pictures, or --scene and --columns");
     require(request.has_scene == !request.columns.empty(), "--scene and --columns go together");
-    StripJob job;
+    Job job;
     job.quiet = request.quiet;
-    job.threads = cli::parse_integer("--threads", request.threads, 0, 1024);
-    if (!request.simd.empty()) cli::use_simd_target(request.simd);
+    job.threads = request.threads;
     std::optional<cli::LoadedScene> loaded;
     if (request.has_scene) loaded = request.scene.load();
     job.columns = find_columns(request, loaded);
     replace_labels(request.labels, job.columns);
     find_reference(request, loaded, job);
     apply_crop(request, job);
-    job.zoom = choose_zoom(request, job.window);
+    job.zoom = request.zoom.value_or(std::clamp(kPanelWidth / job.window.width(), 1, 16));
     job.top = parse_top(request.top);
     job.difference = request.difference;
     job.rmse = request.rmse;

@@ -14,18 +14,22 @@
 
 namespace strata::tools::strip {
 
-// The options as typed; empty where there is none.
-struct StripRequest {
+inline constexpr int kMostZoom = 64;
+
+// The options; empty where there is none.
+struct Request {
     cli::SceneArgument scene;
     bool has_scene = false;
     std::vector<std::string> pictures;
-    std::string columns, crop, zoom, labels, reference, top, output, simd, threads = "0";
+    std::string columns, crop, labels, reference, top, output;
+    std::optional<int> zoom;
+    int threads = 0;
     std::optional<std::string> title, caption;
     bool difference = false, rmse = false, parts = false, quiet = false;
 };
 
 // One picture of the strip, or the reference it is compared with: read from a file or to be rendered.
-struct StripSource {
+struct Source {
     std::string name;  // for messages: a path, or settings as typed
     std::string label;
     std::filesystem::path file;         // empty: to be rendered
@@ -33,9 +37,9 @@ struct StripSource {
     image::Picture picture;             // linear; empty until it is rendered
 };
 
-struct StripJob {
-    std::vector<StripSource> columns;
-    std::optional<StripSource> reference;         // where it is no column
+struct Job {
+    std::vector<Source> columns;
+    std::optional<Source> reference;              // where it is no column
     std::optional<std::size_t> reference_column;  // where it is one
     film::Rect window;                            // of the frame
     int frame_width = 0, frame_height = 0;
@@ -50,12 +54,12 @@ struct StripJob {
 
 // Reads the pictures too. Throws UsageError or SceneError for what cannot be asked for, ImageError for outputs that
 // cannot be written and a missing font.
-StripJob prepare_strip(const StripRequest& request);
+Job prepare_strip(const Request& request);
 
 // Where part `i`, counted from 0, is written: strip.png -> strip-1.exr, the reference strip-reference.exr.
-std::filesystem::path part_path(const StripJob& job, std::optional<std::size_t> i);
+std::filesystem::path part_path(const Job& job, std::optional<std::size_t> i);
 
 // All that is written: the strip, then its parts, if they are asked for.
-std::vector<std::filesystem::path> strip_files(const StripJob& job);
+std::vector<std::filesystem::path> strip_files(const Job& job);
 
 }  // namespace strata::tools::strip

@@ -17,13 +17,13 @@ namespace {
 
 constexpr int kScaleWidth = 320;
 
-const StripSource* reference_of(const StripJob& job) {
+const Source* reference_of(const Job& job) {
     if (job.reference_column) return &job.columns[*job.reference_column];
     return job.reference ? &*job.reference : nullptr;
 }
 
 // Pictures from files are all shown alike; a rendered one may have been asked for with colours of its own.
-image::ColourOut colour_of(const StripJob& job, const StripSource& column) {
+image::ColourOut colour_of(const Job& job, const Source& column) {
     return column.file.empty() ? image::colour_out(column.scene->film) : job.colour;
 }
 
@@ -33,15 +33,14 @@ std::string rmse_text(const image::Comparison& comparison) {
     return text;
 }
 
-std::vector<image::Comparison> compare_all(const StripJob& job, const StripSource& reference) {
+std::vector<image::Comparison> compare_all(const Job& job, const Source& reference) {
     std::vector<image::Comparison> comparisons;
-    for (const StripSource& column : job.columns)
-        comparisons.push_back(image::compare(column.picture, reference.picture));
+    for (const Source& column : job.columns) comparisons.push_back(image::compare(column.picture, reference.picture));
     return comparisons;
 }
 
 // Few values lie beyond it, and none of them decides on it alone.
-double choose_top(const StripJob& job, const std::vector<image::Comparison>& comparisons) {
+double choose_top(const Job& job, const std::vector<image::Comparison>& comparisons) {
     if (job.top) return *job.top;
     double largest = 0;
     for (const image::Comparison& c : comparisons) {
@@ -50,11 +49,11 @@ double choose_top(const StripJob& job, const std::vector<image::Comparison>& com
     return image::scale_top(largest);
 }
 
-void add_difference(const StripJob& job, const StripSource& reference,
-                    const std::vector<image::Comparison>& comparisons, image::Sheet& sheet) {
+void add_difference(const Job& job, const Source& reference, const std::vector<image::Comparison>& comparisons,
+                    image::Sheet& sheet) {
     const double top = choose_top(job, comparisons);
     std::vector<image::Panel> row;
-    for (const StripSource& column : job.columns)
+    for (const Source& column : job.columns)
         row.push_back({image::magnify(image::difference(column.picture, reference.picture, top), job.zoom), "", false});
     sheet.rows.push_back(std::move(row));
     const int width = std::max(job.window.width() * job.zoom, kScaleWidth);
@@ -64,17 +63,17 @@ void add_difference(const StripJob& job, const StripSource& reference,
 
 }  // namespace
 
-image::Canvas draw_strip(const StripJob& job) {
+image::Canvas draw_strip(const Job& job) {
     image::Sheet sheet;
     sheet.title = job.title;
     sheet.caption = job.caption;
     sheet.rows.resize(1);
-    for (const StripSource& column : job.columns) {
+    for (const Source& column : job.columns) {
         sheet.column_labels.push_back(column.label);
         sheet.rows.front().push_back(
             {image::magnify(image::to_canvas(column.picture, colour_of(job, column)), job.zoom), "", false});
     }
-    const StripSource* reference = reference_of(job);
+    const Source* reference = reference_of(job);
     if (reference == nullptr) return image::compose(sheet);
 
     const std::vector<image::Comparison> comparisons = compare_all(job, *reference);
@@ -88,13 +87,13 @@ image::Canvas draw_strip(const StripJob& job) {
     return image::compose(sheet);
 }
 
-image::Metadata strip_metadata(const StripJob& job) {
+image::Metadata strip_metadata(const Job& job) {
     const film::Rect& w = job.window;
     image::Metadata metadata;
     metadata.set("strata:version", STRATA_VERSION);
     for (std::size_t i = 0; i < job.columns.size(); ++i)
         metadata.set(fmt::format("strata:column_{}", i + 1), job.columns[i].name);
-    if (const StripSource* reference = reference_of(job)) metadata.set("strata:reference", reference->name);
+    if (const Source* reference = reference_of(job)) metadata.set("strata:reference", reference->name);
     metadata.set("strata:crop", fmt::format("{},{},{},{}", w.x0, w.y0, w.x1, w.y1));
     metadata.set("strata:zoom", job.zoom);
     metadata.set("strata:exposure", job.colour.exposure);

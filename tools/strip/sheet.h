@@ -7,9 +7,9 @@
 
 namespace strata::tools::strip {
 
-image::Canvas draw_strip(const StripJob& job);
+image::Canvas draw_strip(const Job& job);
 
 // How the strip was made: settings, crop, zoom, reference. Nothing that differs between equal strips.
-image::Metadata strip_metadata(const StripJob& job);
+image::Metadata strip_metadata(const Job& job);
 
 }  // namespace strata::tools::strip

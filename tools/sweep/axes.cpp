@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <set>
 #include <utility>
@@ -18,13 +17,6 @@ namespace strata::tools::sweep {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kListKeys{
-    {{"--N", "sampling.N"},
-     {"--m", "sampling.m"},
-     {"--estimator", "sampling.estimator"},
-     {"--time-order", "sampling.time_order"},
-     {"--seed", "sampling.seed"}}};
-
 bool is_whole(std::string_view text) {
     return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
@@ -36,8 +28,9 @@ std::string canonical(const std::string& value) {
     return number ? scene::number_text(*number) : value;
 }
 
-SweepAxis make_axis(const std::string& origin, std::string_view key, std::string_view values) {
-    SweepAxis axis{.origin = origin, .key = job::full_key_name(origin, key), .values = split_list(values)};
+Axis make_axis(const std::string& origin, std::string_view key, std::string_view values) {
+    Axis axis{.origin = origin, .key = job::full_key_name(origin, key), .values = {}};
+    for (const std::string_view value : job::split_values(origin, values, ",")) axis.values.emplace_back(value);
     if (std::ranges::find(axis.values, "") != axis.values.end())
         throw cli::UsageError(fmt::format("{} '{}': an empty value, allowed: values between commas, such as 1,2,10",
                                           origin, scene::excerpt(values)));
@@ -53,7 +46,7 @@ SweepAxis make_axis(const std::string& origin, std::string_view key, std::string
 }
 
 // "octaves=4,8".
-SweepAxis make_axis(const AxisOption& option) {
+Axis make_axis(const AxisOption& option) {
     const auto equals = option.text.find('=');
     if (equals == std::string::npos || equals == 0)
         throw cli::UsageError(fmt::format("{} {}: allowed: KEY=VALUE,VALUE,..., such as octaves=4,8", option.origin,
@@ -62,27 +55,27 @@ SweepAxis make_axis(const AxisOption& option) {
     return make_axis(option.origin, text.substr(0, equals), text.substr(equals + 1));
 }
 
-std::vector<SweepAxis> axes_without_place(const AxisRequest& request) {
-    std::vector<SweepAxis> axes;
-    for (const auto& [name, key] : kListKeys) {
+std::vector<Axis> axes_without_place(const AxisRequest& request) {
+    std::vector<Axis> axes;
+    for (const AxisName& name : kAxisNames) {
         for (const AxisOption& option : request.lists)
-            if (option.origin == name) axes.push_back(make_axis(option.origin, key, option.text));
+            if (option.origin == name.option) axes.push_back(make_axis(option.origin, name.key, option.text));
     }
     for (const AxisOption& option : request.anywhere) axes.push_back(make_axis(option));
     return axes;
 }
 
-std::optional<SweepAxis> axis_with_place(const std::vector<AxisOption>& options) {
+std::optional<Axis> axis_with_place(const std::vector<AxisOption>& options) {
     if (options.size() > 1) throw cli::UsageError(fmt::format("{}: given twice, allowed: once", options[1].origin));
     if (options.empty()) return std::nullopt;
     return make_axis(options.front());
 }
 
-void check_all_different(const SweepAxes& axes, const std::vector<SweepAxis>& others) {
-    std::vector<const SweepAxis*> all;
+void check_all_different(const Axes& axes, const std::vector<Axis>& others) {
+    std::vector<const Axis*> all;
     if (axes.rows) all.push_back(&*axes.rows);
     if (axes.columns) all.push_back(&*axes.columns);
-    for (const SweepAxis& axis : others) all.push_back(&axis);
+    for (const Axis& axis : others) all.push_back(&axis);
     for (std::size_t i = 0; i < all.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
             if (all[i]->key == all[k]->key)
@@ -92,14 +85,14 @@ void check_all_different(const SweepAxes& axes, const std::vector<SweepAxis>& ot
     }
 }
 
-bool wants_columns(const SweepAxis& axis) { return axis.key == "sampling.N"; }
-bool wants_rows(const SweepAxis& axis) { return axis.key == "sampling.m"; }
+bool wants_columns(const Axis& axis) { return axis.key == "sampling.N"; }
+bool wants_rows(const Axis& axis) { return axis.key == "sampling.m"; }
 
-void place(SweepAxes& axes, std::vector<SweepAxis> varying) {
+void place(Axes& axes, std::vector<Axis> varying) {
     if (varying.size() == 2 && (wants_columns(varying[1]) || wants_rows(varying[0])))
         std::swap(varying[0], varying[1]);  // the first goes to the columns
-    for (SweepAxis& axis : varying) {
-        std::optional<SweepAxis>& place = axes.columns ? axes.rows : axes.columns;
+    for (Axis& axis : varying) {
+        std::optional<Axis>& place = axes.columns ? axes.rows : axes.columns;
         if (place)
             throw cli::UsageError(
                 fmt::format("{}: a third axis, allowed: two of several values, others of one value", axis.origin));
@@ -119,40 +112,15 @@ std::string sanitised(std::string_view value) {
 
 }  // namespace
 
-std::vector<std::string> split_list(std::string_view text) {
-    std::vector<std::string> pieces(1);
-    char quote = 0;
-    int depth = 0;
-    for (const char c : text) {
-        if (quote != 0)
-            quote = c == quote ? '\0' : quote;
-        else if (c == '"' || c == '\'')
-            quote = c;
-        else if (c == '[' || c == '{')
-            ++depth;
-        else if (c == ']' || c == '}')
-            --depth;
-        if (c == ',' && quote == 0 && depth <= 0)
-            pieces.emplace_back();
-        else
-            pieces.back() += c;
-    }
-    for (std::string& piece : pieces) {
-        const auto first = piece.find_first_not_of(" \t");
-        piece = first == std::string::npos ? "" : piece.substr(first, piece.find_last_not_of(" \t") - first + 1);
-    }
-    return pieces;
-}
-
-SweepAxes parse_axes(const AxisRequest& request) {
-    SweepAxes axes;
+Axes parse_axes(const AxisRequest& request) {
+    Axes axes;
     axes.rows = axis_with_place(request.rows);
     axes.columns = axis_with_place(request.columns);
-    std::vector<SweepAxis> others = axes_without_place(request);
+    std::vector<Axis> others = axes_without_place(request);
     check_all_different(axes, others);
 
-    std::vector<SweepAxis> varying;
-    for (SweepAxis& axis : others) (axis.values.size() > 1 ? varying : axes.fixed).push_back(std::move(axis));
+    std::vector<Axis> varying;
+    for (Axis& axis : others) (axis.values.size() > 1 ? varying : axes.fixed).push_back(std::move(axis));
     place(axes, std::move(varying));
     // A list of one value is an axis where there is no other.
     if (!axes.rows && !axes.columns && !axes.fixed.empty()) {
@@ -161,8 +129,8 @@ SweepAxes parse_axes(const AxisRequest& request) {
     }
     if (!axes.rows && !axes.columns)
         throw cli::UsageError(
-            "nothing to vary: give one or two of --N, --m, --estimator, --time-order, --seed, --axis, "
-            "--rows, --columns");
+            "nothing to vary: give one or two of --N, --m, --estimator, --time-order, --seed, --axis, --rows, "
+            "--columns");
     const std::size_t cells =
         (axes.rows ? axes.rows->values.size() : 1) * (axes.columns ? axes.columns->values.size() : 1);
     if (cells > kMostCells)
@@ -170,12 +138,12 @@ SweepAxes parse_axes(const AxisRequest& request) {
     return axes;
 }
 
-std::string axis_name(const SweepAxis& axis) {
+std::string axis_name(const Axis& axis) {
     if (axis.key == "sampling.time_order") return "l";
     return axis.key.substr(axis.key.rfind('.') + 1);
 }
 
-std::string file_part(const SweepAxis& axis, std::size_t value) {
+std::string file_part(const Axis& axis, std::size_t value) {
     std::size_t digits = 2;
     for (const std::string& v : axis.values)
         if (is_whole(v)) digits = std::max(digits, v.size());
@@ -192,7 +160,7 @@ std::string file_part(const SweepAxis& axis, std::size_t value) {
     return axis_name(axis) + own + (unique ? "" : fmt::format("-{}", value + 1));
 }
 
-std::string value_label(const SweepAxis& axis, std::size_t value) {
+std::string value_label(const Axis& axis, std::size_t value) {
     const std::string& text = axis.values[value];
     if (axis.key == "sampling.estimator") return text == "none" ? "no antialiasing" : text;
     return fmt::format("{} = {}", axis_name(axis), text);

@@ -9,7 +9,6 @@
 
 #include "src/image/image_error.h"
 #include "src/image/output_file.h"
-#include "src/image/picture_metadata.h"
 #include "src/image/text.h"
 #include "src/scene/key_text.h"
 #include "src/scene/override.h"
@@ -27,31 +26,27 @@ namespace fs = std::filesystem;
 // Cells of few samples are judged by a reference that has four times the samples of the best, twice.
 constexpr int kReferenceFactor = 2;
 constexpr int kLeastReferenceN = 8;
-constexpr int kMostN = 64;  // as sampling.N allows
 
-void apply(scene::Scene& scene, const SweepAxis& axis, std::size_t value) {
+void apply(scene::Scene& scene, const Axis& axis, std::size_t value) {
     scene::apply_override(scene, fmt::format("{}={}", axis.key, axis.values[value]),
                           fmt::format("{} {}", axis.origin, scene::excerpt(axis.values[value])));
 }
 
-SweepPicture make_picture(std::string file, const scene::Scene& scene, const film::Rect& window) {
-    return {.file = std::move(file),
-            .scene = scene,
-            .window = window,
-            .metadata = image::picture_metadata(scene, window, "fast", "float")};
+Picture make_picture(std::string file, const scene::Scene& scene, const film::Rect& window) {
+    const job::PictureJob job{scene, window};
+    return {job, std::move(file), job.metadata("float")};
 }
 
-film::Rect window_of(const SweepRequest& request, const scene::Film& film) {
+film::Rect window_of(const Request& request, const scene::Film& film) {
     if (request.crop.empty()) return {0, 0, film.width, film.height};
     return cli::parse_crop("--crop", request.crop, film);
 }
 
-SweepCell make_cell(const SweepRequest& request, const SweepJob& job, const scene::Scene& base, std::size_t row,
-                    std::size_t column) {
-    SweepCell cell{.row = row, .column = column, .settings = {}, .picture = {}};
+Cell make_cell(const Request& request, const Job& job, const scene::Scene& base, std::size_t row, std::size_t column) {
+    Cell cell{.row = row, .column = column, .settings = {}, .picture = {}};
     scene::Scene scene = base;
     std::string file, origin;
-    const auto set = [&](const std::optional<SweepAxis>& axis, std::size_t value) {
+    const auto set = [&](const std::optional<Axis>& axis, std::size_t value) {
         if (!axis) return;
         apply(scene, *axis, value);
         cell.settings.emplace_back(axis->key, axis->values[value]);
@@ -65,9 +60,9 @@ SweepCell make_cell(const SweepRequest& request, const SweepJob& job, const scen
     return cell;
 }
 
-void make_cells(const SweepRequest& request, SweepJob& job) {
+void make_cells(const Request& request, Job& job) {
     scene::Scene base = job.loaded.scene;
-    for (const SweepAxis& axis : job.axes.fixed) apply(base, axis, 0);
+    for (const Axis& axis : job.axes.fixed) apply(base, axis, 0);
     for (std::size_t row = 0; row < job.rows(); ++row)
         for (std::size_t column = 0; column < job.columns(); ++column)
             job.cells.push_back(make_cell(request, job, base, row, column));
@@ -75,7 +70,7 @@ void make_cells(const SweepRequest& request, SweepJob& job) {
 
 // The scene whose ideal picture the cell is to come close to: the same filter, the samples aside. The box of `super`
 // is the B-spline of order 1.
-scene::Scene target_of(const SweepCell& cell) {
+scene::Scene target_of(const Cell& cell) {
     scene::Scene target = cell.picture.scene;
     if (target.sampling.estimator == scene::EstimatorKind::super) target.sampling.m = 1;
     target.sampling.estimator = scene::EstimatorKind::shared_sobol;
@@ -84,7 +79,7 @@ scene::Scene target_of(const SweepCell& cell) {
     return target;
 }
 
-bool changes_target(const SweepAxis& axis) {
+bool changes_target(const Axis& axis) {
     const bool only_colours = axis.key.starts_with("film.") && axis.key != "film.width" && axis.key != "film.height";
     return axis.key != "sampling.N" && axis.key != "sampling.estimator" && axis.key != "sampling.seed" && !only_colours;
 }
@@ -94,13 +89,13 @@ struct ReferenceName {
     std::string file = "reference", label;
 };
 
-ReferenceName name_reference(const SweepJob& job, const SweepCell& cell) {
+ReferenceName name_reference(const Job& job, const Cell& cell) {
     ReferenceName name;
     if (cell.picture.scene.sampling.estimator == scene::EstimatorKind::super) {
         name.file += "_box";
         name.label = "box";
     }
-    const auto add = [&](const std::optional<SweepAxis>& axis, std::size_t value) {
+    const auto add = [&](const std::optional<Axis>& axis, std::size_t value) {
         if (!axis || !changes_target(*axis)) return;
         if (axis->key == "sampling.m" && !name.label.empty()) return;
         name.file += fmt::format("_{}", file_part(*axis, value));
@@ -111,17 +106,17 @@ ReferenceName name_reference(const SweepJob& job, const SweepCell& cell) {
     return name;
 }
 
-int reference_N(const SweepRequest& request, const SweepJob& job) {
-    if (!request.reference_N.empty()) return cli::parse_integer("--reference-N", request.reference_N, 1, kMostN);
+int reference_N(const Request& request, const Job& job) {
+    if (request.reference_N) return *request.reference_N;
     int largest = 0;
-    for (const SweepCell& cell : job.cells) largest = std::max(largest, cell.picture.scene.sampling.N);
+    for (const Cell& cell : job.cells) largest = std::max(largest, cell.picture.scene.sampling.N);
     return std::clamp(kReferenceFactor * largest, kLeastReferenceN, kMostN);
 }
 
 // Seeds that no cell uses: a picture must not be judged by its own samples.
-std::pair<std::uint64_t, std::uint64_t> unused_seeds(const SweepJob& job) {
+std::pair<std::uint64_t, std::uint64_t> unused_seeds(const Job& job) {
     std::set<std::uint64_t> used;
-    for (const SweepCell& cell : job.cells) used.insert(cell.picture.scene.sampling.seed);
+    for (const Cell& cell : job.cells) used.insert(cell.picture.scene.sampling.seed);
     std::uint64_t first = 1'000'001;
     while (used.contains(first)) ++first;
     std::uint64_t second = first + 1;
@@ -129,12 +124,12 @@ std::pair<std::uint64_t, std::uint64_t> unused_seeds(const SweepJob& job) {
     return {first, second};
 }
 
-void make_references(const SweepRequest& request, SweepJob& job) {
+void make_references(const Request& request, Job& job) {
     const int N = reference_N(request, job);
     const auto [seed_a, seed_b] = unused_seeds(job);
     std::map<std::pair<std::string, std::string>, std::size_t> known;
     std::set<std::string> files;
-    for (SweepCell& cell : job.cells) {
+    for (Cell& cell : job.cells) {
         scene::Scene target = target_of(cell);
         target.sampling.N = N;
         target.sampling.seed = seed_a;
@@ -146,7 +141,7 @@ void make_references(const SweepRequest& request, SweepJob& job) {
         if (!is_new) continue;
         ReferenceName name = name_reference(job, cell);
         while (!files.insert(name.file).second) name.file += "_";
-        SweepReference reference{.file = name.file + ".exr", .label = name.label, .halves = {}};
+        Reference reference{.file = name.file + ".exr", .label = name.label, .halves = {}};
         reference.halves[0] = make_picture(name.file + "_a.exr", target, w);
         target.sampling.seed = seed_b;
         reference.halves[1] = make_picture(name.file + "_b.exr", target, w);
@@ -155,40 +150,38 @@ void make_references(const SweepRequest& request, SweepJob& job) {
     if (job.references.size() == 1) job.references.front().label.clear();
 }
 
-void read_reference(const SweepRequest& request, SweepJob& job) {
+void read_reference(const Request& request, Job& job) {
     job.given_reference = job::read_foreign_picture(request.reference, request.reference, request.quiet).linear;
     job.given_reference_name = fs::path(request.reference).filename().string();
     const image::Picture& reference = *job.given_reference;
-    for (const SweepCell& cell : job.cells) {
+    for (const Cell& cell : job.cells) {
         const film::Rect& w = cell.picture.window;
         if (w.width() != reference.width() || w.height() != reference.height())
             throw cli::UsageError(fmt::format(
-                "--reference {}: it has {}x{} pixels, {} is to have {}x{}; allowed: equal "
-                "sizes",
-                request.reference, reference.width(), reference.height(), cell.picture.file, w.width(), w.height()));
+                "--reference {}: it has {}x{} pixels, {} is to have {}x{}; allowed: equal sizes", request.reference,
+                reference.width(), reference.height(), cell.picture.file, w.width(), w.height()));
     }
 }
 
-void make_folder(const SweepJob& job) {
+void make_folder(const Job& job) {
     std::error_code error;
     fs::create_directories(job.folder, error);
     if (error)
         throw image::ImageError(fmt::format("cannot make the folder \"{}\": {}", job.folder.string(), error.message()));
     for (const char* file : {kSheetFile, kCsvFile, kJsonFile}) image::check_replaceable(job.folder / file);
-    for (const SweepCell& cell : job.cells) image::check_writable(job.folder / cell.picture.file);
-    for (const SweepReference& reference : job.references) {
+    for (const Cell& cell : job.cells) image::check_writable(job.folder / cell.picture.file);
+    for (const Reference& reference : job.references) {
         image::check_writable(job.folder / reference.file);
-        for (const SweepPicture& half : reference.halves) image::check_writable(job.folder / half.file);
+        for (const Picture& half : reference.halves) image::check_writable(job.folder / half.file);
     }
 }
 
 }  // namespace
 
-SweepJob prepare_sweep(const SweepRequest& request) {
-    SweepJob job;
+Job prepare_sweep(const Request& request) {
+    Job job;
     job.quiet = request.quiet;
-    job.threads = cli::parse_integer("--threads", request.threads, 0, 1024);
-    if (!request.simd.empty()) cli::use_simd_target(request.simd);
+    job.threads = request.threads;
     job.axes = parse_axes(request.axes);
     job.loaded = request.scene.load();
     make_cells(request, job);
@@ -196,7 +189,7 @@ SweepJob prepare_sweep(const SweepRequest& request) {
         make_references(request, job);
     else if (request.reference != "none")
         read_reference(request, job);
-    if (request.reference != "auto" && !request.reference_N.empty())
+    if (request.reference != "auto" && request.reference_N)
         throw cli::UsageError("--reference-N is for --reference auto");
     image::check_fonts();
     job.folder = request.output.empty() ? fs::path(job.loaded.name + "-sweep") : fs::path(request.output);

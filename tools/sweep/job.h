@@ -7,50 +7,51 @@
 #include <utility>
 #include <vector>
 
-#include "src/film/film.h"
 #include "src/image/metadata.h"
 #include "src/image/picture.h"
-#include "src/scene/scene.h"
 #include "tools/cli/scene_argument.h"
+#include "tools/job/picture_job.h"
 #include "tools/sweep/axes.h"
 
 namespace strata::tools::sweep {
 
-// The options as typed; empty where there is none.
-struct SweepRequest {
+inline constexpr int kMostN = 64;  // as sampling.N allows
+
+// The options; empty where there is none.
+struct Request {
     cli::SceneArgument scene;
     AxisRequest axes;
-    std::string crop, reference = "auto", reference_N, output, simd, threads = "0";
+    std::string crop, reference = "auto", output;
+    std::optional<int> reference_N;
+    int threads = 0;
     bool quiet = false;
 };
 
 // A picture that the sweep renders, unless its file is there already.
-struct SweepPicture {
-    std::string file;  // name in the sweep's folder
-    scene::Scene scene;
-    film::Rect window;
+struct Picture : job::PictureJob {
+    std::string file;          // name in the sweep's folder
     image::Metadata metadata;  // what makes a file this picture
 };
 
-struct SweepCell {
+struct Cell {
     std::size_t row = 0, column = 0;
     std::vector<std::pair<std::string, std::string>> settings;  // keys of the axes and their values here
-    SweepPicture picture;
+    Picture picture;
     std::size_t reference = 0;  // index
 };
 
 // What cells of one filter and one scene are compared with: the mean of two independent pictures.
-struct SweepReference {
+struct Reference {
     std::string file;   // of the mean
     std::string label;  // "m = 4"; empty where it is the only one
-    SweepPicture halves[2];
+    Picture halves[2];
 };
 
-struct SweepJob {
+struct Job {
     cli::LoadedScene loaded;
-    SweepAxes axes;
-    std::vector<SweepCell> cells;            // row by row
-    std::vector<SweepReference> references;  // --reference auto
+    Axes axes;
+    std::vector<Cell> cells;            // row by row
+    std::vector<Reference> references;  // --reference auto
     std::optional<image::Picture> given_reference;
     std::string given_reference_name;
     std::filesystem::path folder;
@@ -63,7 +64,7 @@ struct SweepJob {
 
 // Makes the folder. Throws UsageError or SceneError for what cannot be asked for, ImageError for a folder that cannot
 // be written to and a missing font.
-SweepJob prepare_sweep(const SweepRequest& request);
+Job prepare_sweep(const Request& request);
 
 // The names of what else is in the folder.
 inline constexpr const char* kSheetFile = "sweep.png";

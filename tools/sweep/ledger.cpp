@@ -1,17 +1,13 @@
 #include "tools/sweep/ledger.h"
 
-#include <fmt/format.h>
-
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tools/job/settings_mark.h"
+
 namespace strata::tools::sweep {
 
-std::string fingerprint(const image::Metadata& metadata) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (const char c : image::pack(metadata)) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-    return fmt::format("{:016x}", hash);
-}
+std::string fingerprint(const image::Metadata& metadata) { return job::mark_of(image::pack(metadata)); }
 
 PictureCost cost_of(const render::RenderResult& result, const image::Metadata& metadata) {
     return {.fingerprint = fingerprint(metadata),
@@ -23,8 +19,8 @@ PictureCost cost_of(const render::RenderResult& result, const image::Metadata& m
             .threads = result.threads};
 }
 
-std::optional<SweepLedger> read_ledger(const std::filesystem::path& json_file) {
-    SweepLedger ledger;
+std::optional<Ledger> read_ledger(const std::filesystem::path& json_file) {
+    Ledger ledger;
     std::error_code error;
     if (!std::filesystem::exists(json_file, error)) return ledger;
     std::ifstream file(json_file);
@@ -46,7 +42,7 @@ std::optional<SweepLedger> read_ledger(const std::filesystem::path& json_file) {
     return ledger;
 }
 
-nlohmann::ordered_json to_json(const SweepLedger& ledger) {
+nlohmann::ordered_json to_json(const Ledger& ledger) {
     auto json = nlohmann::ordered_json::object();
     for (const auto& [file, cost] : ledger) {
         json[file] = {{"fingerprint", cost.fingerprint}, {"rays", cost.rays},
@@ -57,8 +53,7 @@ nlohmann::ordered_json to_json(const SweepLedger& ledger) {
     return json;
 }
 
-std::optional<PictureCost> find_cost(const SweepLedger& ledger, const std::string& file,
-                                     const image::Metadata& metadata) {
+std::optional<PictureCost> find_cost(const Ledger& ledger, const std::string& file, const image::Metadata& metadata) {
     const auto found = ledger.find(file);
     if (found == ledger.end() || found->second.fingerprint != fingerprint(metadata)) return std::nullopt;
     return found->second;

@@ -20,22 +20,21 @@ struct PictureCost {
     int threads = 0;
 };
 
-// 16 hexadecimal digits (FNV-1a, 64 bits) of all entries.
+// Of all entries (settings_mark.h).
 std::string fingerprint(const image::Metadata& metadata);
 
 PictureCost cost_of(const render::RenderResult& result, const image::Metadata& metadata);
 
 // By file name.
-using SweepLedger = std::map<std::string, PictureCost>;
+using Ledger = std::map<std::string, PictureCost>;
 
 // From a sweep.json; empty when there is none, nothing when it cannot be understood.
-std::optional<SweepLedger> read_ledger(const std::filesystem::path& json_file);
+std::optional<Ledger> read_ledger(const std::filesystem::path& json_file);
 
 // The object of "costs" in a sweep.json.
-nlohmann::ordered_json to_json(const SweepLedger& ledger);
+nlohmann::ordered_json to_json(const Ledger& ledger);
 
 // The cost of this very picture, if it is known.
-std::optional<PictureCost> find_cost(const SweepLedger& ledger, const std::string& file,
-                                     const image::Metadata& metadata);
+std::optional<PictureCost> find_cost(const Ledger& ledger, const std::string& file, const image::Metadata& metadata);
 
 }  // namespace strata::tools::sweep

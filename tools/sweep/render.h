@@ -11,16 +11,14 @@
 
 namespace strata::tools::sweep {
 
-struct SweepOutcome {
+struct Outcome {
     std::size_t kept = 0, rendered = 0;
-    std::size_t unresolved_rays = 0;  // of the pictures rendered now
-    std::size_t failed = 0;           // could not be written, as was told
+    std::size_t failed = 0;  // could not be written, as was told
     bool cancelled = false;
 };
 
 // Each picture is written when it is finished, and its cost with it. Prints what is kept and what is to be done. A
 // picture that cannot be written is told and does not keep the others from being rendered; two in a row end the sweep.
-SweepOutcome render_sweep(cli::PlannedFiles& files, const SweepJob& job, SweepLedger& ledger,
-                          const parallel::CancelToken& cancel);
+Outcome render_sweep(cli::PlannedFiles& files, const Job& job, Ledger& ledger, const parallel::CancelToken& cancel);
 
 }  // namespace strata::tools::sweep

@@ -8,11 +8,10 @@ namespace strata::tools::sweep {
 
 namespace {
 
-image::Picture read(const SweepJob& job, const std::string& file) { return image::read_picture(job.folder / file); }
+image::Picture read(const Job& job, const std::string& file) { return image::read_picture(job.folder / file); }
 
 // Writes the mean, too.
-image::Picture mean_of_halves(cli::PlannedFiles& files, const SweepJob& job, const SweepReference& reference,
-                              double& error) {
+image::Picture mean_of_halves(cli::PlannedFiles& files, const Job& job, const Reference& reference, double& error) {
     image::Picture mean = read(job, reference.halves[0].file);
     const image::Picture other = read(job, reference.halves[1].file);
     error = image::compare(mean, other).rmse / 2;
@@ -31,13 +30,13 @@ image::Picture mean_of_halves(cli::PlannedFiles& files, const SweepJob& job, con
 
 }  // namespace
 
-bool SweepResults::is_near_reference(const SweepJob& job, std::size_t cell) const {
+bool Results::is_near_reference(const Job& job, std::size_t cell) const {
     if (!cells[cell] || reference_errors.empty()) return false;
     return cells[cell]->rmse < kTrustFactor * reference_errors[job.cells[cell].reference];
 }
 
-SweepResults evaluate_sweep(cli::PlannedFiles& files, const SweepJob& job) {
-    SweepResults results;
+Results evaluate_sweep(cli::PlannedFiles& files, const Job& job) {
+    Results results;
     results.cells.resize(job.cells.size());
     const auto compare_cells = [&](const image::Picture& reference, std::size_t index) {
         for (std::size_t i = 0; i < job.cells.size(); ++i)

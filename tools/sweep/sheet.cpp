@@ -22,9 +22,9 @@ struct Scaling {
     int zoom = 1, shrink = 1;
 };
 
-Scaling scaling_of(const SweepJob& job) {
+Scaling scaling_of(const Job& job) {
     int width = 0, longest = 0;
-    for (const SweepCell& cell : job.cells) {
+    for (const Cell& cell : job.cells) {
         width = std::max(width, cell.picture.window.width());
         longest = std::max({longest, width, cell.picture.window.height()});
     }
@@ -51,8 +51,8 @@ image::Picture shrunk(const image::Picture& picture, int n) {
     return small;
 }
 
-image::Panel make_panel(const SweepJob& job, const SweepResults& results, std::size_t i, const Scaling& scaling) {
-    const SweepPicture& picture = job.cells[i].picture;
+image::Panel make_panel(const Job& job, const Results& results, std::size_t i, const Scaling& scaling) {
+    const Picture& picture = job.cells[i].picture;
     const image::Picture linear = shrunk(image::read_picture(job.folder / picture.file), scaling.shrink);
     image::Panel panel{image::magnify(image::to_canvas(linear, image::colour_out(picture.scene.film)), scaling.zoom),
                        "", false};
@@ -63,13 +63,13 @@ image::Panel make_panel(const SweepJob& job, const SweepResults& results, std::s
     return panel;
 }
 
-std::vector<std::string> labels_of_axis(const std::optional<SweepAxis>& axis) {
+std::vector<std::string> labels_of_axis(const std::optional<Axis>& axis) {
     std::vector<std::string> labels;
     for (std::size_t i = 0; axis && i < axis->values.size(); ++i) labels.push_back(value_label(*axis, i));
     return labels;
 }
 
-std::string reference_text(const SweepJob& job, const SweepResults& results) {
+std::string reference_text(const Job& job, const Results& results) {
     if (job.given_reference) return fmt::format("RMSE of linear radiance against {}. ", job.given_reference_name);
     if (job.references.empty()) return "";
     const int N = job.references.front().halves[0].scene.sampling.N;
@@ -82,8 +82,7 @@ std::string reference_text(const SweepJob& job, const SweepResults& results) {
     const bool one = errors.size() == 1;
     std::string text = fmt::format(
         "RMSE of linear radiance against {}: the mean of two independent shared-sobol pictures of N = {}, whose own "
-        "RMSE is "
-        "about {}. ",
+        "RMSE is about {}. ",
         one ? "a reference of the same filter" : "a reference for each filter and scene", N, fmt::join(errors, ", "));
     for (std::size_t i = 0; i < job.cells.size(); ++i) {
         if (!results.is_near_reference(job, i)) continue;
@@ -92,7 +91,7 @@ std::string reference_text(const SweepJob& job, const SweepResults& results) {
     return text;
 }
 
-std::string scaling_text(const SweepJob& job, const Scaling& scaling) {
+std::string scaling_text(const Job& job, const Scaling& scaling) {
     const film::Rect& w = job.cells.front().picture.window;
     std::string text = fmt::format("{}×{} pixels", w.width(), w.height());
     if (scaling.zoom > 1) text += fmt::format(", each shown as {0}×{0}", scaling.zoom);
@@ -100,11 +99,11 @@ std::string scaling_text(const SweepJob& job, const Scaling& scaling) {
     return text + ".";
 }
 
-std::string title_of(const SweepJob& job) {
+std::string title_of(const Job& job) {
     return job.loaded.scene.title.empty() ? job.loaded.name : job.loaded.scene.title;
 }
 
-std::string fixed_text(const SweepJob& job) {
+std::string fixed_text(const Job& job) {
     const auto varies = [&](std::string_view key) {
         return (job.axes.rows && job.axes.rows->key == key) || (job.axes.columns && job.axes.columns->key == key);
     };
@@ -118,7 +117,7 @@ std::string fixed_text(const SweepJob& job) {
 
 }  // namespace
 
-image::Canvas draw_sheet(const SweepJob& job, const SweepResults& results) {
+image::Canvas draw_sheet(const Job& job, const Results& results) {
     const Scaling scaling = scaling_of(job);
     image::Sheet sheet;
     sheet.title = title_of(job);
@@ -131,10 +130,10 @@ image::Canvas draw_sheet(const SweepJob& job, const SweepResults& results) {
     return image::compose(sheet);
 }
 
-image::Metadata sheet_metadata(const SweepJob& job) {
+image::Metadata sheet_metadata(const Job& job) {
     image::Metadata metadata;
     metadata.set("strata:version", STRATA_VERSION);
-    const auto set = [&](const char* name, const std::optional<SweepAxis>& axis) {
+    const auto set = [&](const char* name, const std::optional<Axis>& axis) {
         if (axis) metadata.set(name, fmt::format("{}={}", axis->key, fmt::join(axis->values, ",")));
     };
     set("strata:columns", job.axes.columns);

@@ -9,8 +9,8 @@
 namespace strata::tools::sweep {
 
 // Small pictures are magnified by replication; of large ones each pixel is the mean of n x n, in linear light.
-image::Canvas draw_sheet(const SweepJob& job, const SweepResults& results);
+image::Canvas draw_sheet(const Job& job, const Results& results);
 
-image::Metadata sheet_metadata(const SweepJob& job);
+image::Metadata sheet_metadata(const Job& job);
 
 }  // namespace strata::tools::sweep

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "noise/simd_target.h"
 #include "src/scene/enum_names.h"
+#include "src/scene/needs.h"
+#include "tools/cli/text_file.h"
 #include "tools/report/csv.h"
 #include "tools/report/json.h"
 
@@ -22,7 +22,7 @@ void write_text(cli::PlannedFiles& files, const std::filesystem::path& path, con
     write_if_changed(files, path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
 }
 
-Json axis_json(const std::optional<SweepAxis>& axis) {
+Json axis_json(const std::optional<Axis>& axis) {
     if (!axis) return nullptr;
     return {{"key", axis->key}, {"values", axis->values}};
 }
@@ -43,7 +43,7 @@ Json cost_json(const std::optional<PictureCost>& cost) {
         {"seconds", cost->seconds}, {"cpu_seconds", cost->cpu_seconds}, {"threads", cost->threads}};
 }
 
-Json error_json(const SweepJob& job, const SweepResults& results, std::size_t cell) {
+Json error_json(const Job& job, const Results& results, std::size_t cell) {
     if (!results.cells[cell]) return nullptr;
     const image::Comparison& c = *results.cells[cell];
     Json json = {{"reference",
@@ -58,10 +58,10 @@ Json error_json(const SweepJob& job, const SweepResults& results, std::size_t ce
     return json;
 }
 
-Json sweep_json(const SweepJob& job, const SweepLedger& ledger, const SweepResults& results) {
+Json sweep_json(const Job& job, const Ledger& ledger, const Results& results) {
     Json references = Json::array();
     for (std::size_t r = 0; r < job.references.size(); ++r) {
-        const SweepReference& reference = job.references[r];
+        const Reference& reference = job.references[r];
         references.push_back({{"file", reference.file},
                               {"halves", {reference.halves[0].file, reference.halves[1].file}},
                               {"sampling", sampling_json(reference.halves[0].scene.sampling)},
@@ -70,7 +70,7 @@ Json sweep_json(const SweepJob& job, const SweepLedger& ledger, const SweepResul
     }
     Json cells = Json::array();
     for (std::size_t i = 0; i < job.cells.size(); ++i) {
-        const SweepPicture& picture = job.cells[i].picture;
+        const Picture& picture = job.cells[i].picture;
         const film::Rect& w = picture.window;
         Json settings = Json::object();
         for (const auto& [key, value] : job.cells[i].settings) settings[key] = value;
@@ -95,7 +95,7 @@ Json sweep_json(const SweepJob& job, const SweepLedger& ledger, const SweepResul
 
 std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
-std::string csv_errors(const SweepJob& job, const SweepResults& results, std::size_t cell) {
+std::string csv_errors(const Job& job, const Results& results, std::size_t cell) {
     const auto& comparison = results.cells[cell];
     std::string line;
     if (!comparison) return ",,,,,,,,";
@@ -108,18 +108,17 @@ std::string csv_errors(const SweepJob& job, const SweepResults& results, std::si
                               results.is_near_reference(job, cell) ? "yes" : "no");
 }
 
-std::string csv(const SweepJob& job, const SweepLedger& ledger, const SweepResults& results) {
+std::string csv(const Job& job, const Ledger& ledger, const Results& results) {
     std::string text = "file";
     for (const auto& [key, value] : job.cells.front().settings) text += fmt::format(",{}", csv_cell(key));
     text +=
-        ",samples_a_pixel,rays,shadow_rays,noise_evaluations,seconds,cpu_seconds,rmse,rmse_r,rmse_g,rmse_b,"
-        "relative_rmse,max_abs,percentile99,reference_own_rmse,near_reference_error\n";
+        ",samples_a_pixel,rays,shadow_rays,noise_evaluations,seconds,cpu_seconds,rmse,rmse_r,rmse_g,rmse_b,relative_"
+        "rmse,max_abs,percentile99,reference_own_rmse,near_reference_error\n";
     for (std::size_t i = 0; i < job.cells.size(); ++i) {
-        const SweepPicture& picture = job.cells[i].picture;
-        const scene::Sampling& sampling = picture.scene.sampling;
+        const Picture& picture = job.cells[i].picture;
         text += csv_cell(picture.file);
         for (const auto& [key, value] : job.cells[i].settings) text += fmt::format(",{}", csv_cell(value));
-        text += fmt::format(",{}", sampling.estimator == scene::EstimatorKind::none ? 1 : sampling.N * sampling.N);
+        text += fmt::format(",{}", scene::samples_a_pixel(picture.scene.sampling));
         const auto cost = find_cost(ledger, picture.file, picture.metadata);
         text += cost ? fmt::format(",{},{},{},{},{}", cost->rays, cost->shadow_rays, cost->noise_evaluations,
                                    cost->seconds, cost->cpu_seconds)
@@ -133,20 +132,18 @@ std::string csv(const SweepJob& job, const SweepLedger& ledger, const SweepResul
 
 void write_if_changed(cli::PlannedFiles& files, const std::filesystem::path& path,
                       std::span<const unsigned char> bytes) {
-    std::ifstream file(path, std::ios::binary);
-    const std::vector<char> present{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    const bool same =
-        file.is_open() && std::equal(present.begin(), present.end(), bytes.begin(), bytes.end(),
-                                     [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
+    std::string ignored;
+    const auto present = cli::read_text_file(path, ignored);
+    const std::string_view wanted(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const bool same = present && *present == wanted;
     if (!same) files.write_made(path, [&] { return bytes; });
 }
 
-void write_costs(cli::PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger) {
+void write_costs(cli::PlannedFiles& files, const Job& job, const Ledger& ledger) {
     write_text(files, job.folder / kJsonFile, report::text_of({{"unfinished", true}, {"costs", to_json(ledger)}}));
 }
 
-void write_tables(cli::PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger,
-                  const SweepResults& results) {
+void write_tables(cli::PlannedFiles& files, const Job& job, const Ledger& ledger, const Results& results) {
     write_text(files, job.folder / kCsvFile, csv(job, ledger, results));
     write_text(files, job.folder / kJsonFile, report::text_of(sweep_json(job, ledger, results)));
 }

@@ -16,10 +16,9 @@ void write_if_changed(cli::PlannedFiles& files, const std::filesystem::path& pat
                       std::span<const unsigned char> bytes);
 
 // sweep.json of a sweep that is not finished: the costs so far.
-void write_costs(cli::PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger);
+void write_costs(cli::PlannedFiles& files, const Job& job, const Ledger& ledger);
 
 // Both tables. Equal sweeps give equal tables, apart from seconds, cpu_seconds and threads.
-void write_tables(cli::PlannedFiles& files, const SweepJob& job, const SweepLedger& ledger,
-                  const SweepResults& results);
+void write_tables(cli::PlannedFiles& files, const Job& job, const Ledger& ledger, const Results& results);
 
 }  // namespace strata::tools::sweep

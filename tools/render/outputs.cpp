@@ -1,4 +1,4 @@
-#include "tools/job/picture_outputs.h"
+#include "tools/render/outputs.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "tools/cli/planned_files.h"
 #include "tools/cli/standard_output.h"
 
-namespace strata::tools::job {
+namespace strata::tools::render {
 
 namespace fs = std::filesystem;
 
@@ -18,11 +18,11 @@ PictureOutputs::PictureOutputs(const Job& job) : job_(job) {
     for (const fs::path& path : job.outputs) {
         outputs_.push_back({path, std::make_unique<image::OutputFile>(path), std::nullopt});
     }
-    for (const Aov aov : job.aovs) costs_.emplace_back(job, aov);
+    for (const job::Aov aov : job.aovs) costs_.emplace_back(job, aov);
 }
 
 void PictureOutputs::begin(Output& output, const image::Metadata& metadata) {
-    output.stream.emplace(std::move(output.file), job_.shape(), metadata, job_.write);
+    output.stream.emplace(std::move(output.file), job_.picture.shape(), metadata, job_.write);
 }
 
 void PictureOutputs::begin(const image::Metadata& metadata) {
@@ -49,7 +49,7 @@ void PictureOutputs::write_rows(std::span<const glm::vec3> pixels, std::span<con
 }
 
 void PictureOutputs::write(const film::Film& strip) {
-    write_rows(strip.pixels(), aov_values(job_.aovs, strip));
+    write_rows(strip.pixels(), job::aov_values(job_.aovs, strip));
     for (Costs& costs : costs_) costs.picture.add(strip);
 }
 
@@ -74,7 +74,7 @@ bool PictureOutputs::write_costs() {
     for (Costs& costs : costs_) {
         const fs::path& path = costs.file.target();
         all &= cli::is_written(path, [&] {
-            const image::Canvas canvas = costs.picture.draw(job_.loaded.scene.title);
+            const image::Canvas canvas = costs.picture.draw(job_.picture.scene.title);
             costs.file.write_at(0, image::encode_canvas(path, canvas, job_.metadata));
             costs.file.put_in_place();
             tell_written(path);
@@ -88,7 +88,7 @@ bool PictureOutputs::write_partial_costs(const image::Metadata& metadata) {
     for (const Costs& costs : costs_) {
         const fs::path path = partial_path(job_, costs.file.target());
         all &= cli::is_written(path, [&] {
-            image::write_canvas(path, costs.picture.draw(job_.loaded.scene.title), metadata);
+            image::write_canvas(path, costs.picture.draw(job_.picture.scene.title), metadata);
             tell_written(path);
         });
     }
@@ -118,4 +118,4 @@ bool PictureOutputs::finish_partial(const image::Metadata& metadata) {
     return write_partial_costs(metadata) && all();
 }
 
-}  // namespace strata::tools::job
+}  // namespace strata::tools::render

@@ -1,4 +1,4 @@
-#include "tools/job/run_statistics.h"
+#include "tools/render/statistics.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -12,8 +12,9 @@
 #include "noise/simd_target.h"
 #include "tools/cli/progress_printer.h"
 #include "tools/report/json.h"
+#include "tools/report/text.h"
 
-namespace strata::tools::job {
+namespace strata::tools::render {
 
 namespace {
 
@@ -23,39 +24,31 @@ std::uint64_t peak_memory() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-// 12345678 -> "12.3 M".
-std::string scaled(double count) {
-    if (count >= 1e9) return fmt::format("{:.2f} G", count / 1e9);
-    if (count >= 1e6) return fmt::format("{:.2f} M", count / 1e6);
-    if (count >= 1e4) return fmt::format("{:.1f} k", count / 1e3);
-    return fmt::format("{:.0f}", count);
-}
-
-const char* end_name(render::PassesEnd end) {
+const char* end_name(strata::render::PassesEnd end) {
     switch (end) {
-        case render::PassesEnd::passes:
+        case strata::render::PassesEnd::passes:
             return "passes";
-        case render::PassesEnd::target:
+        case strata::render::PassesEnd::target:
             return "target-rmse";
-        case render::PassesEnd::time:
+        case strata::render::PassesEnd::time:
             return "time-limit";
-        case render::PassesEnd::cancelled:
+        case strata::render::PassesEnd::cancelled:
             return "interrupted";
-        case render::PassesEnd::not_finite:
+        case strata::render::PassesEnd::not_finite:
             return "not finite";
     }
     return "";
 }
 
 std::string verdict(const PassStatistics& passes) {
-    if (passes.end == render::PassesEnd::not_finite) return "some radiance is not finite: no error can be told";
-    if (passes.goal.target_rmse <= 0) return passes.end == render::PassesEnd::time ? "time limit reached" : "";
-    const bool reached = passes.end == render::PassesEnd::target;
+    if (passes.end == strata::render::PassesEnd::not_finite) return "some radiance is not finite: no error can be told";
+    if (passes.goal.target_rmse <= 0) return passes.end == strata::render::PassesEnd::time ? "time limit reached" : "";
+    const bool reached = passes.end == strata::render::PassesEnd::target;
     return fmt::format("target {:.3g} {}", passes.goal.target_rmse,
-                       reached                                      ? "reached"
-                       : passes.end == render::PassesEnd::time      ? "not reached in time"
-                       : passes.end == render::PassesEnd::cancelled ? "not yet reached"
-                                                                    : "not reached in these passes");
+                       reached                                              ? "reached"
+                       : passes.end == strata::render::PassesEnd::time      ? "not reached in time"
+                       : passes.end == strata::render::PassesEnd::cancelled ? "not yet reached"
+                                                                            : "not reached in these passes");
 }
 
 std::string passes_summary(const PassStatistics& passes) {
@@ -71,7 +64,7 @@ std::string passes_summary(const PassStatistics& passes) {
 }
 
 report::Json passes_json(const PassStatistics& passes) {
-    const render::ErrorEstimate error = passes.error.value_or(render::ErrorEstimate{});
+    const strata::render::ErrorEstimate error = passes.error.value_or(strata::render::ErrorEstimate{});
     const bool known = passes.error.has_value();
     report::Json predicted = nullptr;
     if (passes.predicted_passes) predicted = *passes.predicted_passes;
@@ -131,8 +124,8 @@ std::string left_out_summary(const integrate::Counters& counters) {
     const double all = static_cast<double>(left.total() + counters.noise_evaluations) * 0.01;
     if (left.total() == 0) return {};
     return fmt::format(
-        "left out {:.0f} % of octaves: too fine for the step {:.0f} %, sign settled without {:.0f} %, "
-        "in a window {:.0f} %\n",
+        "left out {:.0f} % of octaves: too fine for the step {:.0f} %, sign settled without {:.0f} %, in a window "
+        "{:.0f} %\n",
         static_cast<double>(left.total()) / all, static_cast<double>(left.too_fine) / all,
         static_cast<double>(left.settled) / all, static_cast<double>(left.in_window) / all);
 }
@@ -149,7 +142,8 @@ std::string phases_summary(const RunStatistics& statistics) {
 
 }  // namespace
 
-RunStatistics collect(const render::ProgressiveResult& result, const render::PassGoal& goal, const std::string& scene) {
+RunStatistics collect(const strata::render::ProgressiveResult& result, const strata::render::PassGoal& goal,
+                      const std::string& scene) {
     RunStatistics statistics = collect(result.render, scene);
     if (goal.passes > 1) {
         statistics.passes = PassStatistics{goal,         result.passes,           result.end,
@@ -158,7 +152,7 @@ RunStatistics collect(const render::ProgressiveResult& result, const render::Pas
     return statistics;
 }
 
-RunStatistics collect(const render::RenderResult& result, const std::string& scene) {
+RunStatistics collect(const strata::render::RenderResult& result, const std::string& scene) {
     return {.counters = result.counters,
             .seconds = result.seconds,
             .cpu_seconds = result.cpu_seconds,
@@ -176,8 +170,8 @@ std::string summary(const RunStatistics& statistics) {
     std::string text = fmt::format("time     {} ({:.2f} s on {} thread{}, {:.2f} s of CPU, {})\n",
                                    cli::duration_text(statistics.seconds), statistics.seconds, statistics.threads,
                                    statistics.threads == 1 ? "" : "s", statistics.cpu_seconds, statistics.simd_target);
-    text += fmt::format("rays     {} and {} shadow rays, {}rays/s\n", scaled(rays), scaled(shadow_rays),
-                        scaled((rays + shadow_rays) / std::max(statistics.seconds, 1e-9)));
+    text += fmt::format("rays     {} and {} shadow rays, {}rays/s\n", report::scaled(rays), report::scaled(shadow_rays),
+                        report::scaled((rays + shadow_rays) / std::max(statistics.seconds, 1e-9)));
     if (c.noise_evaluations > 0) {
         text += fmt::format("noise    {:.1f} evaluations a ray, shadow rays and normals included in the count\n",
                             static_cast<double>(c.noise_evaluations) / std::max(1.0, rays + shadow_rays));
@@ -211,4 +205,4 @@ std::string statistics_json(const RunStatistics& statistics) {
     return report::text_of(json);
 }
 
-}  // namespace strata::tools::job
+}  // namespace strata::tools::render

@@ -12,9 +12,9 @@
 #include "src/image/metadata.h"
 #include "src/image/output_file.h"
 #include "src/image/picture_stream.h"
-#include "tools/job/render_job.h"
+#include "tools/render/job.h"
 
-namespace strata::tools::job {
+namespace strata::tools::render {
 
 // A file that cannot be written is told on standard error and given up; the others go on.
 class PictureOutputs {
@@ -51,9 +51,9 @@ class PictureOutputs {
     };
 
     struct Costs {
-        Costs(const Job& job, Aov aov) : picture(aov, job.window), file(aov_path(job, aov)) {}
+        Costs(const Job& job, job::Aov aov) : picture(aov, job.picture.window), file(aov_path(job, aov)) {}
 
-        CostPicture picture;
+        job::CostPicture picture;
         image::OutputFile file;
     };
 
@@ -71,4 +71,4 @@ class PictureOutputs {
     std::vector<Output> outputs_;
 };
 
-}  // namespace strata::tools::job
+}  // namespace strata::tools::render

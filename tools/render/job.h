@@ -2,50 +2,50 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "src/film/film.h"
 #include "src/image/encode.h"
 #include "src/image/metadata.h"
-#include "src/image/picture.h"
 #include "src/render/progressive.h"
 #include "tools/cli/scene_argument.h"
 #include "tools/job/aov.h"
+#include "tools/job/picture_job.h"
 
-namespace strata::tools::job {
+namespace strata::tools::render {
 
-// The options as typed; empty where there is none.
+// The options; empty where there is none.
 struct RenderRequest {
     cli::SceneArgument scene;
     std::vector<std::string> outputs;
-    std::string crop, tracer, simd, format, statistics, threads = "0", tile = "32";
-    std::string passes, target_rmse, time_limit, aov;
-    bool quiet = false, tiled = false;
+    std::string crop, format, statistics, aov;
+    std::optional<integrate::Tracer> tracer;
+    std::optional<int> passes;
+    double target_rmse = 0, time_limit_s = 0;
+    int threads = 0, tile = 32;
+    bool is_simd_pinned = false, quiet = false, tiled = false;
 };
 
 // All that is known before the first ray.
 struct Job {
     cli::LoadedScene loaded;
-    film::Rect window;
+    job::PictureJob picture;
     std::vector<std::filesystem::path> outputs;
-    std::vector<Aov> aovs;
+    std::vector<job::Aov> aovs;
     std::filesystem::path statistics;  // empty: none
     image::WriteOptions write;
     image::Metadata metadata;
-    std::string tracer;
-    render::PassGoal goal;
+    strata::render::PassGoal goal;
     int threads = 0, tile = 0;
     bool quiet = false;
-
-    image::PictureShape shape() const;
 };
 
 // Throws UsageError or SceneError for what cannot be asked for, ImageError for outputs that cannot be written.
 Job prepare(const RenderRequest& request);
 
 // NAME.steps.png, named like the first output: the picture of an AOV to look at.
-std::filesystem::path aov_path(const Job& job, Aov aov);
+std::filesystem::path aov_path(const Job& job, job::Aov aov);
 
 // Where what is finished of an output goes when the render is stopped: NAME.partial.EXT beside NAME.EXT, or
 // NAME.partial-2.EXT where that is an output itself.
@@ -54,4 +54,4 @@ std::filesystem::path partial_path(const Job& job, const std::filesystem::path& 
 // All that a picture of `passes` passes says of itself, one that was stopped if `is_partial`.
 image::Metadata final_metadata(const Job& job, int passes, bool is_partial);
 
-}  // namespace strata::tools::job
+}  // namespace strata::tools::render

@@ -1,4 +1,4 @@
-#include "tools/job/render_job.h"
+#include "tools/render/job.h"
 
 #include <fmt/format.h>
 
@@ -16,34 +16,23 @@
 #include "src/parallel/processors.h"
 #include "src/scene/enum_names.h"
 #include "src/scene/key_text.h"
-#include "src/scene/typed_number.h"
-#include "tools/cli/duration.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/planned_files.h"
 #include "tools/cli/standard_output.h"
-#include "tools/job/clipping.h"
-#include "tools/job/run_statistics.h"
+#include "tools/job/exr_format.h"
 
-namespace strata::tools::job {
+namespace strata::tools::render {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kMostThreads = 1024;  // each has buffers of its own
-constexpr int kLargestTile = 1024;  // progress and the prediction of the time come by the tile
 
 // An option given here, else what the picture that is rendered again recorded, else the default.
 std::string choose(const std::string& given, const std::optional<std::string>& recorded, const char* otherwise) {
     return !given.empty() ? given : recorded.value_or(otherwise);
 }
 
-image::ExrFormat parse_format(const std::string& name) {
-    if (name == "half") return image::ExrFormat::half;
-    if (name == "float") return image::ExrFormat::floating;
-    throw cli::UsageError(fmt::format(
-        "--format {}: allowed: half, float; exr, png, tif, jpg of a pipe or standard output", scene::excerpt(name)));
-}
+constexpr const char* kFormats = "half, float; exr, png, tif, jpg of a pipe or standard output";
 
 // What --format says of EXR channels; nothing where it names the format of a stream.
 std::string channels_format(const RenderRequest& request) {
@@ -66,57 +55,47 @@ void check_stream_format(const RenderRequest& request) {
 
 // Bits depend on the SIMD target: a picture is rendered again on its own, where that is here.
 void choose_simd_target(const RenderRequest& request, const cli::LoadedScene& loaded) {
-    if (!request.simd.empty()) return cli::use_simd_target(request.simd);
-    if (!loaded.simd_target || noise::pin_simd_target(*loaded.simd_target) || request.quiet) return;
+    if (request.is_simd_pinned || !loaded.simd_target || noise::pin_simd_target(*loaded.simd_target) || request.quiet)
+        return;
     cli::print_error(
-        fmt::format("warning: {} was made with --simd {}, which this machine lacks; with {} it may differ by "
-                    "rounding",
+        fmt::format("warning: {} was made with --simd {}, which this machine lacks; with {} it may differ by rounding",
                     loaded.source, *loaded.simd_target, noise::simd_target()));
 }
 
 // One pass is not held whole.
-void check_memory(const film::Rect& window, const render::PassGoal& goal, const scene::Scene& scene) {
+void check_memory(const film::Rect& window, const strata::render::PassGoal& goal, const scene::Scene& scene) {
     if (goal.passes == 1) return;
     const estimate::Estimator estimator(estimate::estimator_settings(scene));
-    const double needed = 1.0 * render::bytes_a_pixel_of_passes(estimator) * window.width() * window.height();
+    const double needed = 1.0 * strata::render::bytes_a_pixel_of_passes(estimator) * window.width() * window.height();
     const double present = static_cast<double>(parallel::available_memory_bytes());
     if (needed <= present) return;
     throw cli::UsageError(
         fmt::format("{}x{} pixels in passes need {:.1f} GB of memory, there are {:.1f} GB (of this machine, or of its "
-                    "container); allowed: one pass, a "
-                    "smaller --size, or the frame in parts by --crop",
+                    "container); allowed: one pass, a smaller --size, or the frame in parts by --crop",
                     window.width(), window.height(), needed / 1e9, present / 1e9));
 }
 
-double parse_target(const std::string& text) {
-    constexpr double kLeast = 1e-9, kMost = 1e6;
-    const auto value = scene::typed_number(text);
-    if (value && *value >= kLeast && *value <= kMost) return *value;
-    throw cli::UsageError(
-        fmt::format("--target-rmse {}: allowed: a linear radiance, {} to {}", scene::excerpt(text), kLeast, kMost));
-}
-
-render::PassGoal choose_goal(const RenderRequest& request, const cli::LoadedScene& loaded) {
+strata::render::PassGoal choose_goal(const RenderRequest& request, const cli::LoadedScene& loaded) {
     const scene::EstimatorKind estimator = loaded.scene.sampling.estimator;
-    render::PassGoal goal;
-    if (!request.target_rmse.empty()) goal.target_rmse = parse_target(request.target_rmse);
-    if (!request.time_limit.empty()) goal.time_limit_s = cli::parse_duration("--time-limit", request.time_limit);
+    strata::render::PassGoal goal;
+    goal.target_rmse = request.target_rmse;
+    goal.time_limit_s = request.time_limit_s;
     const bool open_ended = goal.target_rmse > 0 || goal.time_limit_s > 0;
-    if (open_ended) goal.passes = render::kMostPasses;
-    if (!request.passes.empty()) goal.passes = cli::parse_integer("--passes", request.passes, 1, render::kMostPasses);
-    if (goal.passes > 1 && !render::passes_differ(estimator)) {
-        throw cli::UsageError(fmt::format(
-            "{}: passes of the estimator '{}' are all alike, their mean is no better than one; allowed with passes: "
-            "jittered, stratified, random, sobol, shared, shared-sobol",
-            !request.target_rmse.empty() ? "--target-rmse"
-            : open_ended                 ? "--time-limit"
-                                         : "--passes",
-            scene::name_of(estimator)));
+    if (open_ended) goal.passes = strata::render::kMostPasses;
+    if (request.passes) goal.passes = *request.passes;
+    if (goal.passes > 1 && !strata::render::passes_differ(estimator)) {
+        throw cli::UsageError(
+            fmt::format("{}: passes of the estimator '{}' are all alike, their mean is no better than one; allowed "
+                        "with passes: jittered, stratified, random, sobol, shared, shared-sobol",
+                        request.target_rmse > 0 ? "--target-rmse"
+                        : open_ended            ? "--time-limit"
+                                                : "--passes",
+                        scene::name_of(estimator)));
     }
     // A picture rendered again with another estimator may have lost its use for passes.
-    if (request.passes.empty() && !open_ended && loaded.passes && render::passes_differ(estimator)) {
+    if (!request.passes && !open_ended && loaded.passes && strata::render::passes_differ(estimator)) {
         goal.passes =
-            cli::parse_integer((loaded.source + ": its strata:passes").c_str(), *loaded.passes, 1, render::kMostPasses);
+            cli::parse_integer((loaded.source + ": its strata:passes"), *loaded.passes, 1, strata::render::kMostPasses);
     }
     return goal;
 }
@@ -124,7 +103,7 @@ render::PassGoal choose_goal(const RenderRequest& request, const cli::LoadedScen
 void check_output(const fs::path& path, const Job& job) {
     try {
         image::format_of(path);
-        image::check_size(path, job.window.width(), job.window.height());
+        image::check_size(path, job.picture.window.width(), job.picture.window.height());
     } catch (const image::ImageError& error) {
         throw cli::UsageError(error.what());
     }
@@ -155,14 +134,14 @@ std::vector<fs::path> output_paths(const RenderRequest& request, const Job& job)
 }
 
 void choose_aovs(const RenderRequest& request, Job& job) {
-    job.aovs = aovs_of(request.aov, job.loaded, job.goal.passes);
+    job.aovs = job::aovs_of(request.aov, job.loaded, job.goal.passes);
     if (job.aovs.empty()) return;
     image::check_fonts();
-    job.write.exr_extra = aov_channels(job.aovs);
+    job.write.exr_extra = job::aov_channels(job.aovs);
 }
 
 void check_aov_paths(const Job& job) {
-    for (const Aov aov : job.aovs) {
+    for (const job::Aov aov : job.aovs) {
         const fs::path path = aov_path(job, aov);
         image::check_writable(path);
         if (std::ranges::any_of(job.outputs,
@@ -189,7 +168,7 @@ void check_statistics(const Job& job) {
 std::vector<cli::NamedOutput> named_outputs(const Job& job) {
     std::vector<cli::NamedOutput> outputs;
     for (const fs::path& path : job.outputs) outputs.push_back({fmt::format("-o {}", path.string()), path});
-    for (const Aov aov : job.aovs) {
+    for (const job::Aov aov : job.aovs) {
         outputs.push_back({fmt::format("--aov {}", name_of(aov)), aov_path(job, aov)});
     }
     if (!job.statistics.empty())
@@ -209,7 +188,7 @@ void check_partial_paths(const Job& job) {
 void check_limits(const Job& job) {
     for (const fs::path& path : job.outputs) {
         try {
-            image::check_encodable(path, job.shape(), final_metadata(job, job.goal.passes, true), job.write);
+            image::check_encodable(path, job.picture.shape(), final_metadata(job, job.goal.passes, true), job.write);
         } catch (const image::ImageError& error) {
             throw cli::UsageError(error.what());
         }
@@ -218,7 +197,7 @@ void check_limits(const Job& job) {
 
 }  // namespace
 
-fs::path aov_path(const Job& job, Aov aov) {
+fs::path aov_path(const Job& job, job::Aov aov) {
     const bool is_stream = image::stream_target(job.outputs.front()).has_value();
     const fs::path path = is_stream ? fs::path(job.loaded.name + ".png") : job.outputs.front();
     return image::derived_path(path, fmt::format(".{}.png", name_of(aov)));
@@ -236,39 +215,33 @@ fs::path partial_path(const Job& job, const fs::path& path) {
 
 image::Metadata final_metadata(const Job& job, int passes, bool is_partial) {
     image::Metadata metadata = job.metadata;
-    image::set_passes(metadata, job.loaded.scene.sampling, passes);
+    image::set_passes(metadata, job.picture.scene.sampling, passes);
     if (!is_partial) return metadata;
     metadata.set("strata:partial", passes == 0 ? "unfinished pixels are black"
                                                : fmt::format("the mean of {} whole passes; more were wanted", passes));
     return metadata;
 }
 
-image::PictureShape Job::shape() const {
-    const scene::Film& frame = loaded.scene.film;
-    return {frame.width, frame.height, window.x0, window.y0, window.x1, window.y1};
-}
-
 Job prepare(const RenderRequest& request) {
     Job job;
     job.quiet = request.quiet;
-    job.threads = cli::parse_integer("--threads", request.threads, 0, kMostThreads);
-    job.tile = cli::parse_integer("--tile", request.tile, 1, kLargestTile);
+    job.threads = request.threads;
+    job.tile = request.tile;
     job.loaded = request.scene.load();
     choose_simd_target(request, job.loaded);
-    job.window = cli::window_of(request.crop, job.loaded);
-    job.tracer = choose(request.tracer, job.loaded.tracer, "fast");
-    cli::parse_tracer(job.tracer);
+    job.picture = {job.loaded.scene, cli::window_of(request.crop, job.loaded),
+                   cli::tracer_of(request.tracer, job.loaded)};
     check_stream_format(request);
     const std::string format = choose(channels_format(request), job.loaded.exr_format, "half");
     const bool is_tiled = request.tiled || job.loaded.is_tiled;
     job.write = {.colour = image::colour_out(job.loaded.scene.film),
-                 .exr_format = parse_format(format),
+                 .exr_format = job::parse_exr_format(format, kFormats),
                  .exr_layout = is_tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic,
                  .frames_per_second = image::frame_rate(job.loaded.scene)};
-    if (!request.quiet) job.write.warn = warn_of_clipping;
+    if (!request.quiet) job.write.warn = job::warn_of_clipping;
     job.goal = choose_goal(request, job.loaded);
     choose_aovs(request, job);
-    check_memory(job.window, job.goal, job.loaded.scene);
+    check_memory(job.picture.window, job.goal, job.loaded.scene);
     job.outputs = output_paths(request, job);
     check_aov_paths(job);
     job.statistics = request.statistics;
@@ -277,13 +250,13 @@ Job prepare(const RenderRequest& request) {
     check_partial_paths(job);
     for (const fs::path& path : job.outputs) cli::keep_output_for(path);
     cli::keep_output_for(job.statistics);
-    job.metadata = image::picture_metadata(job.loaded.scene, job.window, job.tracer, format);
+    job.metadata = job.picture.metadata(format);
     if (is_tiled) job.metadata.set("strata:tiled", "asked for");
     std::string aovs;
-    for (const Aov aov : job.aovs) aovs += fmt::format("{}{}", aovs.empty() ? "" : ",", name_of(aov));
+    for (const job::Aov aov : job.aovs) aovs += fmt::format("{}{}", aovs.empty() ? "" : ",", name_of(aov));
     if (!aovs.empty()) job.metadata.set("strata:aov", aovs);
     check_limits(job);
     return job;
 }
 
-}  // namespace strata::tools::job
+}  // namespace strata::tools::render

@@ -8,14 +8,14 @@
 #include "src/render/progressive.h"
 #include "src/render/render.h"
 
-namespace strata::tools::job {
+namespace strata::tools::render {
 
 // Of a render in passes.
 struct PassStatistics {
-    render::PassGoal goal;
+    strata::render::PassGoal goal;
     int passes = 0;
-    render::PassesEnd end = render::PassesEnd::passes;
-    std::optional<render::ErrorEstimate> error;
+    strata::render::PassesEnd end = strata::render::PassesEnd::passes;
+    std::optional<strata::render::ErrorEstimate> error;
     std::optional<int> predicted_passes;
     double predicted_seconds = 0;
 };
@@ -32,8 +32,9 @@ struct RunStatistics {
     std::optional<PassStatistics> passes;  // empty: a plain render
 };
 
-RunStatistics collect(const render::RenderResult& result, const std::string& scene);
-RunStatistics collect(const render::ProgressiveResult& result, const render::PassGoal& goal, const std::string& scene);
+RunStatistics collect(const strata::render::RenderResult& result, const std::string& scene);
+RunStatistics collect(const strata::render::ProgressiveResult& result, const strata::render::PassGoal& goal,
+                      const std::string& scene);
 
 // A few lines for people.
 std::string summary(const RunStatistics& statistics);
@@ -41,4 +42,4 @@ std::string summary(const RunStatistics& statistics);
 // The --stats file.
 std::string statistics_json(const RunStatistics& statistics);
 
-}  // namespace strata::tools::job
+}  // namespace strata::tools::render
