@@ -77,6 +77,12 @@ ordered_json record_of(const Plan& plan, Size size) {
             {"parts", parts}};
 }
 
+void write_sheet(const Plan& plan, image::Sheet sheet, const std::filesystem::path& folder) {
+    sheet.title = fmt::format("Figure {}. {}", plan.number, plan.title);
+    sheet.caption = plan.caption;
+    image::write_canvas(folder / plan.shown[0].file, image::compose(sheet));
+}
+
 scene::Scene builtin(std::string_view name) {
     const auto found = scene::find_builtin(name);
     if (!found) throw std::logic_error(fmt::format("no built-in scene '{}'", name));

@@ -9,6 +9,7 @@
 
 #include "src/film/film.h"
 #include "src/image/picture.h"
+#include "src/image/sheet.h"
 #include "src/scene/scene.h"
 #include "tools/job/picture_job.h"
 
@@ -69,6 +70,9 @@ std::span<const Figure> all_figures();
 
 // Everything about a figure, timings and threads apart: equal records are equal figures on one version and SIMD target.
 nlohmann::ordered_json record_of(const Plan& plan, Size size);
+
+// Writes the whole figure, the first of what is shown: the sheet under the figure's title and over its caption.
+void write_sheet(const Plan& plan, image::Sheet sheet, const std::filesystem::path& folder);
 
 // A built-in scene.
 scene::Scene builtin(std::string_view name);

@@ -1,9 +1,7 @@
 // Figure 4: test patterns without antialiasing, through a box and through the cubic B-spline.
 #include <fmt/format.h>
 
-#include "src/image/canvas.h"
 #include "tools/figures/figure.h"
-#include "tools/figures/panel_grid.h"
 
 namespace strata::tools::figures {
 
@@ -65,20 +63,15 @@ Plan plan(Size size) {
     result.title = "Anti-aliasing test patterns";
     result.caption =
         "From left to right: no anti-aliasing, a box filter and the cubic B-spline. The zone plate's rings are one "
-        "pixel "
-        "wide at the nearer edge, twice Nyquist's frequency. Without anti-aliasing false centres appear as bright as "
-        "the "
-        "true one. The box leaves faint ones: it lets 64 % of a wave at Nyquist's frequency through and its side lobes "
-        "22 % "
-        "beyond one ring a pixel. The cubic, with 16 % and 0.2 %, fades to an even grey. Likewise the moiré at the "
-        "checker's "
-        "horizon.";
+        "pixel wide at the nearer edge, twice Nyquist's frequency. Without anti-aliasing false centres appear as "
+        "bright as the true one. The box leaves faint ones: it lets 64 % of a wave at Nyquist's frequency through and "
+        "its side lobes 22 % beyond one ring a pixel. The cubic, with 16 % and 0.2 %, fades to an even grey. Likewise "
+        "the moiré at the checker's horizon.";
     result.chosen = {"both patterns: the paper's own is lost", "the rings' number, the checker's size and horizon"};
-    result.shown = {
-        {"figure-4.png",
-         "Two rows of three pictures. A zone plate: with no anti-aliasing, strong false ring systems at the "
-         "edges; with a box, faint ones; with the cubic, rings that fade to grey. A chequered plane: moiré "
-         "towards the horizon, less with the box, none with the cubic."}};
+    result.shown = {{"figure-4.png",
+                     "Two rows of three pictures. A zone plate: with no anti-aliasing, strong false ring systems at "
+                     "the edges; with a box, faint ones; with the cubic, rings that fade to grey. A chequered plane: "
+                     "moiré towards the horizon, less with the box, none with the cubic."}};
     for (const TestPattern& pattern : kPatterns) {
         const auto file = [&](const Filter& filter) {
             return fmt::format("figure-4-{}-{}.png", pattern.name, filter.name);
@@ -94,13 +87,14 @@ Plan plan(Size size) {
 }
 
 void draw(const Plan& plan, Pictures pictures, const std::filesystem::path& folder) {
-    std::vector<LabelledPanel> panels;
+    image::Sheet sheet;
+    for (const Filter& filter : kFilters) sheet.column_labels.emplace_back(filter.label);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
-        panels.push_back({image::to_canvas(pictures[i]), kFilters[i % std::size(kFilters)].label});
-        image::write_canvas(folder / plan.shown[i + 1].file, panels.back().canvas);
+        if (i % std::size(kFilters) == 0) sheet.rows.emplace_back();
+        sheet.rows.back().push_back({image::to_canvas(pictures[i]), "", false});
+        image::write_canvas(folder / plan.shown[i + 1].file, sheet.rows.back().back().picture);
     }
-    image::write_canvas(folder / plan.shown[0].file,
-                        panel_grid("Figure 4. " + plan.title, plan.caption, std::size(kFilters), panels));
+    write_sheet(plan, std::move(sheet), folder);
 }
 
 }  // namespace

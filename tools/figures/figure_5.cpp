@@ -3,7 +3,6 @@
 #include "src/image/house_style.h"
 #include "src/image/text.h"
 #include "tools/figures/figure.h"
-#include "tools/figures/panel_grid.h"
 #include "tools/figures/surface_areas.h"
 
 namespace strata::tools::figures {
@@ -19,13 +18,12 @@ Plan plan(Size size) {
     result.title = "The procedural surface";
     result.caption =
         "An implicit surface, |x| = radius + a sum of 12 octaves of gradient noise, ray cast with N² = 100 samples a "
-        "pixel "
-        "through the cubic B-spline, m = 4. The outlined areas are those of figures 6 and 7.";
+        "pixel through the cubic B-spline, m = 4. The outlined areas are those of figures 6 and 7.";
     result.chosen = {"the surface and the view: the paper's are lost", "both areas"};
     result.shown = {
         {"figure-5.png",
-         "A rugged planet, green and brown with white peaks, lit from the left before a dark sky. Two small "
-         "squares are outlined: 6 on white peaks near the top, 7 on the ragged rim at the upper right."},
+         "A rugged planet, green and brown with white peaks, lit from the left before a dark sky. Two small squares "
+         "are outlined: 6 on white peaks near the top, 7 on the ragged rim at the upper right."},
         {"figure-5-plain.png", "The same planet without outlines."}};
     const scene::Scene scene = surface_scene(size);
     result.parts = {{"figure-5-surface.exr", scene, {0, 0, scene.film.width, scene.film.height}, 0.4}};
@@ -51,8 +49,9 @@ void draw(const Plan& plan, Pictures pictures, const std::filesystem::path& fold
     image::write_canvas(folder / plan.shown[1].file, canvas);
     mark(canvas, plan.parameters.at("area_of_figure_6"), "6");
     mark(canvas, plan.parameters.at("area_of_figure_7"), "7");
-    image::write_canvas(folder / plan.shown[0].file,
-                        panel_grid("Figure 5. " + plan.title, plan.caption, 1, {{canvas, ""}}));
+    image::Sheet sheet;
+    sheet.rows = {{{canvas, "", false}}};
+    write_sheet(plan, std::move(sheet), folder);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "src/image/canvas.h"
 #include "src/image/house_style.h"
 #include "tools/figures/figure.h"
-#include "tools/figures/panel_grid.h"
 #include "tools/figures/wheel_rows.h"
 
 namespace strata::tools::figures {
@@ -56,24 +55,19 @@ Plan plan(Size size) {
     result.caption = fmt::format(
         "A wheel of {} spokes that turns counter-clockwise, at {} frames a second with the shutter open for {} s; two "
         "frames of each. Upper row: a spoke passes {} times a second, and every filter shows where the wheel turns to. "
-        "Lower "
-        "row: {} times a second. From frame to frame that looks like {} - {} = {} times, so that under the box, which "
-        "is "
-        "the shutter itself, the blur turns slowly clockwise, against the spokes; the orange mark, computed, follows "
-        "one "
-        "spoke or its image. The box leaves {:.2f} of the spokes' contrast, the cubic B-spline {:.3f}: an even disc, "
-        "with "
-        "no hint of rotation.",
+        "Lower row: {} times a second. From frame to frame that looks like {} - {} = {} times, so that under the box, "
+        "which is the shutter itself, the blur turns slowly clockwise, against the spokes; the orange mark, computed, "
+        "follows one spoke or its image. The box leaves {:.2f} of the spokes' contrast, the cubic B-spline {:.3f}: an "
+        "even disc, with no hint of rotation.",
         kWheelSpokes, kWheelFps, kWheelOpen_s, kSlow_Hz, kFast_Hz, kFast_Hz, kWheelFps, kFast_Hz - kWheelFps,
         wheel_gain(kFast_Hz, 1), wheel_gain(kFast_Hz, 4));
     result.chosen = {"the wheel, its number of spokes and both speeds: the paper's are lost",
                      "frames 0 and 2, so that the turn is plain", "both filters centred on the open shutter",
                      "the orange marks"};
-    result.shown = {
-        {"figure-8.png",
-         "Two rows of four wheels. Upper row, slow: spokes turned a little counter-clockwise in the second frame "
-         "of each pair, a little more blurred under the cubic. Lower row, fast: under the box, blurred "
-         "spokes turned clockwise; under the cubic, an even grey disc."}};
+    result.shown = {{"figure-8.png",
+                     "Two rows of four wheels. Upper row, slow: spokes turned a little counter-clockwise in the second "
+                     "frame of each pair, a little more blurred under the cubic. Lower row, fast: under the box, "
+                     "blurred spokes turned clockwise; under the cubic, an even grey disc."}};
     each_panel([&](const Row& row, const Column& column, int frame) {
         const int side = scaled(kSide, size);
         const std::string stem = stem_of(row, column, frame);
@@ -116,18 +110,19 @@ void mark_spoke(image::Canvas& canvas, const scene::Scene& scene) {
 }
 
 void draw(const Plan& plan, Pictures pictures, const std::filesystem::path& folder) {
-    std::vector<LabelledPanel> panels;
+    image::Sheet sheet;
+    for (const Row& row : kRows) sheet.row_labels.emplace_back(row.name);
+    sheet.rows.resize(std::size(kRows));
     std::size_t i = 0;
     each_panel([&](const Row& row, const Column& column, int frame) {
         image::Canvas canvas = image::to_canvas(pictures[i]);
         image::write_canvas(folder / plan.shown[i + 1].file, canvas);
         if (wheel_gain(row.spoke_Hz, column.time_order) > 0.1) mark_spoke(canvas, plan.parts[i].scene);
-        panels.push_back({canvas, label_of(row, column, frame)});
+        if (&row == &kRows[0]) sheet.column_labels.push_back(fmt::format("{}, frame {}", column.label, frame));
+        sheet.rows[static_cast<std::size_t>(&row - kRows)].push_back({canvas, "", false});
         ++i;
     });
-    const int columns = static_cast<int>(std::size(kColumns) * std::size(kWheelFrames));
-    image::write_canvas(folder / plan.shown[0].file,
-                        panel_grid("Figure 8. " + plan.title, plan.caption, columns, panels));
+    write_sheet(plan, std::move(sheet), folder);
 }
 
 }  // namespace

@@ -4,9 +4,6 @@
 
 #include <algorithm>
 
-#include "src/image/canvas.h"
-#include "tools/figures/panel_grid.h"
-
 namespace strata::tools::figures {
 
 namespace {
@@ -59,15 +56,15 @@ void add_detail(Plan& plan, Size size, const film::Rect& window, std::span<const
 
 void draw_detail(const Plan& plan, Pictures pictures, const std::filesystem::path& folder,
                  std::span<const DetailColumn> columns) {
-    std::vector<LabelledPanel> panels;
+    image::Sheet sheet;
+    sheet.rows.resize(1);
     for (std::size_t i = 0; i < columns.size(); ++i) {
         const image::Canvas canvas = image::to_canvas(pictures[i], image::colour_out(plan.parts[i].scene.film));
-        panels.push_back({image::magnify(canvas, zoom_of(plan)), columns[i].label});
-        image::write_canvas(folder / plan.shown[i + 1].file, panels.back().canvas);
+        sheet.column_labels.push_back(columns[i].label);
+        sheet.rows.front().push_back({image::magnify(canvas, zoom_of(plan)), "", false});
+        image::write_canvas(folder / plan.shown[i + 1].file, sheet.rows.front().back().picture);
     }
-    const std::string title = fmt::format("Figure {}. {}", plan.number, plan.title);
-    image::write_canvas(folder / plan.shown[0].file,
-                        panel_grid(title, plan.caption, static_cast<int>(columns.size()), panels));
+    write_sheet(plan, std::move(sheet), folder);
 }
 
 }  // namespace strata::tools::figures
