@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "src/accel/bounding_ball.h"
 #include "src/accel/camera_sweep.h"
 #include "src/trace/rounding_pad.h"
 
@@ -30,10 +29,10 @@ CellBeams::CellBeams(const scene::Scene& scene, const scene::CameraPath& path, c
                   middle_of(scene::open_shutter(scene)))),
       field_(field),
       limit_(scene.camera.far / placement.scale()),
-      bounding_ball_(bounding_ball(field)),
+      bounding_ball_(field.extent().ball * trace::kRoundingPad),
       eye_distance_(glm::length(placement.point_to_local(placement.orientation(0.0), eye_.world.position()))),
       spin_rad_per_s_(placement.moves() ? std::abs(glm::radians(surface_.spin_deg_per_s)) : 0.0) {
-    const double eye_height = placement.point_to_local(placement.orientation(0.0), eye_.world.position()).y;
+    const double eye_height = field.base(placement.point_to_local(placement.orientation(0.0), eye_.world.position()));
     typical_distance_ = std::isfinite(bounding_ball_) ? std::max(eye_distance_ - bounding_ball_, 0.01 * eye_distance_)
                                                       : 2.0 * std::max(std::abs(eye_height), 0.1 * field.amplitude());
     typical_distance_ = std::max(typical_distance_, 1e-300);

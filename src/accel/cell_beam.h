@@ -62,7 +62,7 @@ class CellBeams {
     Eye eye_;  // at the shutter's middle
     const trace::Field& field_;
     double limit_;          // of rays, in the surface's units
-    double bounding_ball_;  // radius around the surface's origin that holds all that is solid; infinite where none does
+    double bounding_ball_;  // radius around the surface's origin that holds all that is solid, padded; infinite: none
     double eye_distance_;   // from the surface's origin, in its units
     double typical_distance_;  // from the eye to what it sees, in the surface's units
     double spin_rad_per_s_;

@@ -22,17 +22,13 @@ constexpr double kWidestWithWindows = 1.0;
 // Of beams after each touch, but for the finest, whose rays do as well. Speed only.
 constexpr int kMostJumps = 24;
 
-double rays_a_pixel(const scene::Sampling& sampling) {
-    return sampling.estimator == scene::EstimatorKind::none ? 1.0 : static_cast<double>(sampling.N) * sampling.N;
-}
-
 scene::TimeSpan shutter(const scene::Scene& scene) { return scene::open_shutter(scene); }
 
 double time_cells(double blur, double leaf) { return std::max(1.0, blur / (kBlurASide * leaf)); }
 
 // The largest power of two of pixels with few enough rays, with the scene's motion divided to suit.
 double leaf_side(const scene::Scene& scene, double blur) {
-    const double rays = rays_a_pixel(scene.sampling);
+    const double rays = scene.sampling.samples_a_pixel();
     double leaf = 64.0;
     while (leaf > 0x1p-6 && rays * leaf * leaf / time_cells(blur, leaf) > kRaysALeaf) leaf *= 0.5;
     const double least = std::exp2(std::ceil(std::log2(std::max(scene.film.width, scene.film.height) * 0x1p-23)));

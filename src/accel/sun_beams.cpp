@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "src/accel/bounding_ball.h"
 #include "src/accel/interleave_simd.h"
 #include "src/trace/rounding_pad.h"
 
@@ -20,7 +19,7 @@ constexpr double kFineCells = 1 << kCodeAxisBits;  // along a side of a coarsest
 // The finest cells hold about this many rays. Speed only.
 constexpr double kShadowRaysALeaf = 40.0;
 
-// The sun must stand at least this high (sine) over a height field's plane.
+// The sun must stand at least this high (sine) over the plane that holds what no ball does.
 constexpr double kLeastRise = 1e-3;
 
 glm::dvec3 across(const glm::dvec3& direction) {
@@ -55,10 +54,12 @@ SunBeams::SunBeams(const trace::Field& field, const glm::dvec3& to_sun, const gl
       noise_shift_(noise_shift),
       top_side_(coarsest_side(field)),
       amplitude_(field.amplitude()) {
-    const double ball = bounding_ball(field);
-    const bool is_bounded = std::isfinite(ball);
-    bounding_ball_ = is_bounded ? ball : 0.0;
-    usable_ = field.evaluations() > 0 && (is_bounded || to_sun.y > kLeastRise);
+    const solid::Extent extent = field.extent();
+    const bool is_bounded = std::isfinite(extent.ball);
+    bounding_ball_ = is_bounded ? extent.ball * trace::kRoundingPad : 0.0;
+    up_ = extent.up;
+    rise_ = glm::dot(up_, to_sun);
+    usable_ = field.evaluations() > 0 && (is_bounded || rise_ > kLeastRise);
 }
 
 int SunBeams::level_of(double spacing) const {
@@ -114,8 +115,8 @@ trace::Beam SunBeams::beam(const SunlitCells& cells, std::uint64_t code, int lev
     } else {
         // The height at which every point of the cell is over the highest ground, and that below the deepest.
         const double high = amplitude_ + beam.radius0 + slack;
-        *top_height = (high - foot.y) / to_sun_.y;
-        depth = 2.0 * high / to_sun_.y;
+        *top_height = (high - glm::dot(up_, foot)) / rise_;
+        depth = 2.0 * high / rise_;
     }
     beam.origin = foot + *top_height * to_sun_;
     beam.limit = depth;

@@ -53,7 +53,9 @@ class SunBeams {
     glm::dvec3 noise_shift_;
     double top_side_ = 1.0;  // of the coarsest cells
     double amplitude_ = 0.0;
-    double bounding_ball_ = 0.0;  // 0: a height field
+    double bounding_ball_ = 0.0;  // 0: there is none, and all lies under a plane with this `up`
+    glm::dvec3 up_{0.0};
+    double rise_ = 0.0;  // of the way to the sun over that plane
     bool usable_ = false;
 };
 

@@ -10,29 +10,13 @@
 
 namespace strata::estimate {
 
-using scene::EstimatorKind;
+using scene::Placement;
 
 namespace {
-
-sample::PatternKind pattern_kind(EstimatorKind kind) {
-    switch (kind) {
-        case EstimatorKind::sobol:
-        case EstimatorKind::shared_sobol:
-            return sample::PatternKind::sobol;
-        case EstimatorKind::random:
-            return sample::PatternKind::random;
-        default:
-            return sample::PatternKind::stratified;
-    }
-}
 
 // A power of two, so that a pixel of such weights alone has the bits of a plain mean. Below every weight of
 // consequence, yet its product with the least float is still a double: 2^(-900-149) > 2^-1074.
 constexpr double kVanishedWeight = 0x1p-900;
-
-bool samples_by_density(EstimatorKind kind) {
-    return kind == EstimatorKind::stratified || kind == EstimatorKind::random || kind == EstimatorKind::sobol;
-}
 
 std::uint64_t seed_of_frame(std::uint64_t seed, int frame) {
     if (frame == 0) return seed;
@@ -56,26 +40,21 @@ EstimatorSettings estimator_settings(const scene::Scene& scene) {
 
 Estimator::Estimator(const EstimatorSettings& settings)
     : settings_(settings),
-      sample_count_(settings.kind == EstimatorKind::none ? 1 : settings.N * settings.N),
-      pattern_(pattern_kind(settings.kind), settings.N) {
+      row_(scene::row_of(settings.kind)),
+      sample_count_(row_.is_single ? 1 : settings.N * settings.N),
+      pattern_(row_.pattern, settings.N) {
     assert(settings.N >= 1 && settings.m >= 1 && settings.m <= 100);
-    const int N = settings.N;
-    const bool over_support = settings.kind == EstimatorKind::uniform;
-    const double side = over_support ? settings.m : 1;
-    if (shared() || over_support || settings.kind == EstimatorKind::jittered) weights_.emplace(settings.m);
-    if (settings.kind == EstimatorKind::none) grid_offset_ = {0.0};
-    if (settings.kind == EstimatorKind::super || over_support) {
+    const int N = row_.is_single ? 1 : settings.N;
+    const double side = row_.placement == Placement::support_grid ? settings.m : 1;
+    if (row_.is_weighed()) weights_.emplace(settings.m);
+    if (row_.is_grid()) {
         for (int i = 0; i < N; ++i) grid_offset_.push_back(side * (2 * i + 1 - N) / (2.0 * N));
     }
-    if (over_support) {
+    if (row_.placement == Placement::support_grid) {
         for (const double offset : grid_offset_) grid_weight_.push_back(weights_->at(offset + 0.5 * settings.m));
     }
-    if (samples_by_density(settings.kind)) space_.emplace(settings.m);
-    if (settings.kind != EstimatorKind::none && !settings.shutter.instant()) time_.emplace(settings.time_order);
-}
-
-bool Estimator::shared() const {
-    return settings_.kind == EstimatorKind::shared || settings_.kind == EstimatorKind::shared_sobol;
+    if (row_.placement == Placement::by_density) space_.emplace(settings.m);
+    if (!row_.is_single && !settings.shutter.instant()) time_.emplace(settings.time_order);
 }
 
 std::uint64_t Estimator::key(const glm::ivec2& owner) const {
@@ -88,12 +67,19 @@ void Estimator::pixel_samples(std::span<const glm::ivec2> pixels, SampleSet& out
     out.u.resize(total);
     out.v.resize(total);
     out.weight.clear();
-    if (samples_by_density(settings_.kind)) {
-        place_by_density(pixels, out);
-    } else if (settings_.kind == EstimatorKind::jittered) {
-        place_jittered(pixels, out);
-    } else {
-        place_grid(pixels, out);
+    switch (row_.placement) {
+        case Placement::pixel_grid:
+        case Placement::support_grid:
+            place_grid(pixels, out);
+            break;
+        case Placement::jittered:
+            place_jittered(pixels, out);
+            break;
+        case Placement::by_density:
+            place_by_density(pixels, out);
+            break;
+        case Placement::shared:
+            break;
     }
     place_times(pixels, out);
 }
@@ -191,7 +177,7 @@ void Estimator::place_times(std::span<const glm::ivec2> owners, SampleSet& out) 
     out.scratch_permutation.resize(n);
     for (std::size_t p = 0; p < owners.size(); ++p) {
         const std::span<float> q = std::span(out.scratch_q).subspan(p * n, n);
-        if (settings_.kind == EstimatorKind::random) {
+        if (row_.pattern == sample::PatternKind::random) {
             sample::folded_random_times(key(owners[p]), q);
         } else {
             sample::folded_times(key(owners[p]), out.scratch_permutation, q);

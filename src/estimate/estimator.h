@@ -2,16 +2,9 @@
 // sample is a pure function of (seed, pixel or cell, index). References in parentheses are the paper's equations:
 // Gamito & Maddock, "Anti-aliasing with stratified B-spline filters of arbitrary degree", CGF 25(2), 2006.
 //
-//   none           one sample at the pixel's centre, at mid-shutter
-//   super          centres of N x N cells of the pixel, equal weights; m is not used
-//   uniform        centres of N x N cells of the filter's support, weights (2)
-//   jittered       one sample anywhere in each of these cells, weights (2)
-//   stratified     one sample in each of N x N strata of probability, through N_m^-1: equal weights (3)
-//   random         N x N independent samples through N_m^-1, at independent times
-//   sobol          the first N x N points of an Owen-scrambled Sobol sequence through N_m^-1
-//   shared         N x N strata in each pixel-sized cell [i,i+1) of the screen; a sample counts in every pixel whose
-//                  support holds it, by its B-spline weight, and a pixel is divided by its sum of weights
-//   shared_sobol   the same with Owen-scrambled Sobol points in each cell
+// What each one is: src/scene/estimators.h. Shared estimators have N x N samples in each pixel-sized cell [i,i+1) of
+// the screen; a sample counts in every pixel whose support holds it, by its B-spline weight, and a pixel is divided by
+// its sum of weights.
 //
 // All but `none` spread their samples over the shutter (18), all but `random` in strata of time. Weights are
 // normalised: a constant picture is exact.
@@ -76,7 +69,7 @@ class Estimator {
     const EstimatorSettings& settings() const { return settings_; }
 
     // Whether samples belong to screen cells and are shared by pixels, rather than belong to a pixel.
-    bool shared() const;
+    bool shared() const { return row_.is_shared(); }
 
     // Whether samples are placed by the inverse of the filter's distribution.
     bool inverts_filter() const { return space_.has_value(); }
@@ -86,7 +79,7 @@ class Estimator {
 
     // Whether a pixel's sum of weights differs from seed to seed: what it is divided by is random then, and a mean of
     // such pixels keeps the bias of one.
-    bool has_random_weights() const { return shared() || settings_.kind == scene::EstimatorKind::jittered; }
+    bool has_random_weights() const { return shared() || row_.placement == scene::Placement::jittered; }
 
     // Samples a pixel, or a cell where they are shared.
     int sample_count() const { return sample_count_; }
@@ -112,10 +105,11 @@ class Estimator {
     std::vector<ProbeSample> probe_shared(int x, int y) const;
 
     EstimatorSettings settings_;
+    scene::EstimatorRow row_;
     int sample_count_;
     sample::Pattern pattern_;
-    std::vector<double> grid_offset_;  // px from the pixel's centre along an axis: super, uniform
-    std::vector<double> grid_weight_;  // along an axis: uniform
+    std::vector<double> grid_offset_;  // px from the pixel's centre along an axis: grids
+    std::vector<double> grid_weight_;  // along an axis: a grid on the support
     std::optional<BsplineWeights> weights_;
     std::optional<filter::BsplineTable> space_;
     std::optional<filter::BsplineTable> time_;

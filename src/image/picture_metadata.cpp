@@ -16,8 +16,8 @@ namespace strata::image {
 namespace {
 
 std::string filter_text(const scene::Sampling& sampling) {
-    if (sampling.estimator == scene::EstimatorKind::none) return "none";
-    if (sampling.estimator == scene::EstimatorKind::super) return "box";
+    if (scene::row_of(sampling.estimator).is_single) return "none";
+    if (scene::row_of(sampling.estimator).is_box()) return "box";
     return fmt::format("B-spline of order {}", sampling.m);
 }
 

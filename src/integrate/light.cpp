@@ -21,15 +21,15 @@ void shade_misses(const SurfaceSetup& setup, SurfaceChunk& chunk) {
 
 void find_heights(const SurfaceSetup& setup, SurfaceChunk& chunk) {
     const std::size_t count = chunk.sample.size();
-    const bool is_planet = setup.scene.surface.kind == scene::SurfaceKind::planet;
     chunk.height.resize(count);
     chunk.up_dot_normal.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::dvec3 normal(chunk.normal[i]);
-        const glm::dvec3& x = chunk.x[i];
-        chunk.height[i] = is_planet ? setup.field.base(x) : x.y;
-        chunk.up_dot_normal[i] = is_planet ? glm::dot(setup.field.base_gradient(x), normal) : normal.y;
-    }
+    const auto find = [&](const auto& solid) {
+        for (std::size_t i = 0; i < count; ++i) {
+            chunk.height[i] = solid.height(chunk.x[i]);
+            chunk.up_dot_normal[i] = glm::dot(solid.up(chunk.x[i]), glm::dvec3(chunk.normal[i]));
+        }
+    };
+    solid::visit(find, setup.field.solid());
 }
 
 shaders::ShadingPoint point_of(const SurfaceChunk& chunk, std::size_t i) {

@@ -15,13 +15,12 @@ namespace {
 double shadow_spacing(const SurfaceSetup& setup, const SurfaceChunk& chunk, const glm::dvec3& to_light, std::size_t i) {
     constexpr double kLeastCosine = 0.05;
     const scene::Sampling& sampling = setup.scene.sampling;
-    const int samples_a_side = sampling.estimator == scene::EstimatorKind::none ? 1 : sampling.N;
     const trace::Ray& ray = chunk.ray_of_hit(i);
     const glm::dvec3 normal(chunk.normal[i]);
     const double pixel = ray.delta_slope / sampling.tolerance * chunk.surface_hits[i].s;
     const double to_eye = std::max(std::abs(glm::dot(normal, ray.direction)), kLeastCosine);
     const double facing = std::max(glm::dot(normal, to_light), kLeastCosine);
-    return pixel * std::sqrt(facing / to_eye) / samples_a_side;
+    return pixel * std::sqrt(facing / to_eye) / sampling.samples_a_side();
 }
 
 // A point of the convex bound that faces the light sees it.

@@ -31,7 +31,7 @@ strata_archive(noise noise.h strata_noise strata_noise_library)
 set_target_properties(strata_noise_archive PROPERTIES OUTPUT_NAME strata_noise)
 target_link_libraries(strata_noise_archive PRIVATE PkgConfig::hwy)
 
-strata_archive(strata strata.h strata_filter strata_sample strata_scene strata_daylight strata_shaders strata_trace
+strata_archive(strata strata.h strata_filter strata_sample strata_solid strata_scene strata_daylight strata_shaders strata_trace
   strata_accel strata_integrate strata_parallel strata_film strata_estimate strata_render strata_image strata_library)
 set_target_properties(strata_strata_archive PROPERTIES OUTPUT_NAME strata)
 target_link_libraries(strata_strata_archive PUBLIC strata_noise_archive

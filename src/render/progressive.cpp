@@ -146,10 +146,7 @@ ProgressiveResult ProgressiveRender::run() {
 
 }  // namespace
 
-bool passes_differ(scene::EstimatorKind kind) {
-    return kind != scene::EstimatorKind::none && kind != scene::EstimatorKind::super &&
-           kind != scene::EstimatorKind::uniform;
-}
+bool passes_differ(scene::EstimatorKind kind) { return !scene::row_of(kind).is_grid(); }
 
 int bytes_a_pixel_of_passes(const estimate::Estimator& estimator) {
     return estimator.has_random_weights() ? kWeightedPassBytes : kPassBytes;

@@ -65,7 +65,7 @@ TimeSpan open_shutter(const Scene& scene) {
     const Shutter& shutter = scene.shutter;
     const double middle = shutter.time_s() + 0.5 * shutter.open_s;
     const double half =
-        scene.sampling.estimator == EstimatorKind::none ? 0.0 : 0.5 * shutter.open_s * scene.sampling.time_order;
+        row_of(scene.sampling.estimator).is_single ? 0.0 : 0.5 * shutter.open_s * scene.sampling.time_order;
     return {middle - half, middle + half};
 }
 

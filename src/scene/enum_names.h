@@ -20,11 +20,14 @@ inline constexpr std::array<std::string_view, 7> kEnumNames<ImageKind>{"surface"
                                                                        "edge",    "ramp",      "constant"};
 
 template <>
-inline constexpr std::array<std::string_view, 4> kEnumNames<SurfaceKind>{"terrain", "hyperterrain", "planet",
-                                                                         "isosurface"};
+inline constexpr auto kEnumNames<solid::Kind> = [] {
+    std::array<std::string_view, solid::kKinds> names;
+    std::ranges::transform(solid::all_solids(), names.begin(), &solid::KindRow::name);
+    return names;
+}();
 
 template <>
-inline constexpr std::array<std::string_view, 2> kEnumNames<BoundKind>{"ball", "box"};
+inline constexpr auto kEnumNames<solid::LevelSet::Bound> = solid::LevelSet::kBounds;
 
 template <>
 inline constexpr std::array<std::string_view, 3> kEnumNames<ToneCurve>{"none", "reinhard", "agx"};
@@ -36,16 +39,17 @@ template <>
 inline constexpr std::array<std::string_view, 2> kEnumNames<SkyModel>{"gradient", "daylight"};
 
 template <>
-inline constexpr std::array<std::string_view, 9> kEnumNames<EstimatorKind>{
-    "none", "super", "uniform", "jittered", "stratified", "random", "sobol", "shared", "shared-sobol"};
+inline constexpr auto kEnumNames<EstimatorKind> = [] {
+    std::array<std::string_view, all_estimators().size()> names;
+    std::ranges::transform(all_estimators(), names.begin(), &EstimatorRow::name);
+    return names;
+}();
 
 static_assert(static_cast<std::size_t>(ImageKind::constant) + 1 == kEnumNames<ImageKind>.size());
-static_assert(static_cast<std::size_t>(SurfaceKind::isosurface) + 1 == kEnumNames<SurfaceKind>.size());
-static_assert(static_cast<std::size_t>(BoundKind::box) + 1 == kEnumNames<BoundKind>.size());
+static_assert(static_cast<std::size_t>(solid::LevelSet::Bound::box) + 1 == solid::LevelSet::kBounds.size());
 static_assert(static_cast<std::size_t>(ToneCurve::agx) + 1 == kEnumNames<ToneCurve>.size());
 static_assert(static_cast<std::size_t>(Interpolation::linear) + 1 == kEnumNames<Interpolation>.size());
 static_assert(static_cast<std::size_t>(SkyModel::daylight) + 1 == kEnumNames<SkyModel>.size());
-static_assert(static_cast<std::size_t>(EstimatorKind::shared_sobol) + 1 == kEnumNames<EstimatorKind>.size());
 
 template <class E>
 constexpr std::string_view name_of(E value) {

@@ -1,9 +1,14 @@
 #include "src/scene/keys.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
+#include "src/scene/enum_names.h"
+#include "src/scene/key_list.h"
 #include "src/scene/key_makers.h"
 #include "src/scene/pattern_keys.h"
 #include "src/scene/relief_keys.h"
@@ -78,35 +83,52 @@ Section camera_section(Camera& camera, bool matters) {
                "parts left out are the camera's own")});
 }
 
+std::string_view kinds_meaning() {
+    static const std::string all = [] {
+        std::vector<std::string_view> each;
+        for (const solid::KindRow& row : solid::all_solids()) each.push_back(row.meaning);
+        return fmt::format("{}", fmt::join(each, ", "));
+    }();
+    return all;
+}
+
+// Of all kinds of solids. Those of others than the chosen one do not matter.
+std::vector<Key> solid_keys(Surface& surface) {
+    std::vector<Key> all;
+    const auto take = [&](auto& shape) {
+        KeyList list;
+        shape.keys(list);
+        for (Key& key : list.take()) {
+            all.push_back(only_if(surface.kind == solid::kKind<std::remove_cvref_t<decltype(shape)>>, std::move(key)));
+        }
+    };
+    std::apply([&](auto&... shapes) { (take(shapes), ...); }, surface.shapes);
+    return all;
+}
+
 Section surface_section(Surface& surface, bool matters) {
-    const bool planet = surface.kind == SurfaceKind::planet;
-    const bool isosurface = surface.kind == SurfaceKind::isosurface;
     const bool own_sum = surface.relief.empty();
-    return section(
-        "surface", "sum over octaves k of amplitude * gain^k * noise(frequency * lacunarity^k * x)", matters,
-        {choice("kind", surface.kind, "y = 2-D sum, y = 3-D sum, |x| = radius + 3-D sum, 3-D sum = threshold"),
-         vector("origin", surface.origin, kAnywhere, "world units", "where the surface's own origin is"),
-         vector("rotation_deg", surface.rotation_deg, kAngle, "degrees", "turn about x, then y, then z"),
-         number("scale", surface.scale, kLength, "world units", "length of one surface unit"),
-         direction("spin_axis", surface.spin_axis,
-                   "axis of the spin through the origin, in world directions; spun after rotation_deg"),
-         number("spin_deg_per_s", surface.spin_deg_per_s, kAngle, "degrees/s", "speed of the spin; 0: at rest"),
-         vector("drift", surface.drift, kDrift, "surface units/s",
-                "how the noise moves through the surface, in its own directions: terrain flows, bodies morph"),
-         only_if(own_sum, count("octaves", surface.octaves, {1, 32}, "", "terms of the sum")),
-         only_if(own_sum,
-                 number("lacunarity", surface.lacunarity, {1.0, 10.0}, "", "frequency ratio of neighbouring octaves")),
-         only_if(own_sum, number("gain", surface.gain, {0.0, 1.0}, "", "amplitude ratio of neighbouring octaves")),
-         only_if(own_sum, number("amplitude", surface.amplitude, {0.0, 1e6}, "surface units", "amplitude of octave 0")),
-         only_if(own_sum, number("frequency", surface.frequency, {1e-9, 1e9}, "lattice cells a surface unit",
-                                 "frequency of octave 0")),
-         only_if(own_sum, plain("seed", surface.seed, "chooses the noise")),
-         only_if(planet, number("radius", surface.radius, kLength, "surface units", "planet: radius of its sphere")),
-         only_if(isosurface, number("threshold", surface.threshold, {-1e9, 1e9}, "surface units",
-                                    "isosurface: solid where the sum exceeds it")),
-         only_if(isosurface, choice("bound", surface.bound, "isosurface: the body it is cut from")),
-         only_if(isosurface, vector("bound_size", surface.bound_size, kLength, "surface units",
-                                    "isosurface: a ball's radius in the first number, or a box's half sizes"))});
+    std::vector<Key> keys{
+        choice("kind", surface.kind, kinds_meaning()),
+        vector("origin", surface.origin, kAnywhere, "world units", "where the surface's own origin is"),
+        vector("rotation_deg", surface.rotation_deg, kAngle, "degrees", "turn about x, then y, then z"),
+        number("scale", surface.scale, kLength, "world units", "length of one surface unit"),
+        direction("spin_axis", surface.spin_axis,
+                  "axis of the spin through the origin, in world directions; spun after rotation_deg"),
+        number("spin_deg_per_s", surface.spin_deg_per_s, kAngle, "degrees/s", "speed of the spin; 0: at rest"),
+        vector("drift", surface.drift, kDrift, "surface units/s",
+               "how the noise moves through the surface, in its own directions: terrain flows, bodies morph"),
+        only_if(own_sum, count("octaves", surface.octaves, {1, 32}, "", "terms of the sum")),
+        only_if(own_sum,
+                number("lacunarity", surface.lacunarity, {1.0, 10.0}, "", "frequency ratio of neighbouring octaves")),
+        only_if(own_sum, number("gain", surface.gain, {0.0, 1.0}, "", "amplitude ratio of neighbouring octaves")),
+        only_if(own_sum, number("amplitude", surface.amplitude, {0.0, 1e6}, "surface units", "amplitude of octave 0")),
+        only_if(own_sum, number("frequency", surface.frequency, {1e-9, 1e9}, "lattice cells a surface unit",
+                                "frequency of octave 0")),
+        only_if(own_sum, plain("seed", surface.seed, "chooses the noise"))};
+    for (Key& key : solid_keys(surface)) keys.push_back(std::move(key));
+    return section("surface", "sum over octaves k of amplitude * gain^k * noise(frequency * lacunarity^k * x)", matters,
+                   std::move(keys));
 }
 
 Section scale_section(Scale& scale, bool matters) {

@@ -7,7 +7,7 @@ namespace strata::scene {
 bool noise_drifts(const Surface& surface) {
     if (surface.relief.empty() && surface.amplitude == 0.0) return false;
     const glm::dvec3& d = surface.drift;
-    return d.x != 0.0 || d.z != 0.0 || (d.y != 0.0 && surface.kind != SurfaceKind::terrain);
+    return d.x != 0.0 || d.z != 0.0 || (d.y != 0.0 && solid::row_of(surface.kind).dimensions != 2);
 }
 
 Motion motion(const Scene& scene) {
@@ -18,12 +18,10 @@ Motion motion(const Scene& scene) {
             .drift = noise_drifts(scene.surface)};
 }
 
-int samples_a_pixel(const Sampling& sampling) {
-    return sampling.estimator == EstimatorKind::none ? 1 : sampling.N * sampling.N;
-}
+int samples_a_pixel(const Sampling& sampling) { return sampling.samples_a_pixel(); }
 
 bool needs_time_samples(const Scene& scene) {
-    return scene.sampling.estimator != EstimatorKind::none && scene.shutter.open_s > 0.0 && motion(scene).any();
+    return !row_of(scene.sampling.estimator).is_single && scene.shutter.open_s > 0.0 && motion(scene).any();
 }
 
 bool needs_shadow_rays(const Scene& scene) {

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <utility>
 
+#include "src/scene/key_list.h"
 #include "src/scene/key_text.h"
 
 namespace strata::scene {
@@ -32,45 +33,6 @@ ReliefNode default_node(std::size_t type) {
     }
     return ReliefNode(std::in_place_index<I>);
 }
-
-// What nodes tell their keys to.
-class KeyList {
-  public:
-    void number(std::string name, double& field, double min, double max, std::string_view unit,
-                std::string_view meaning) {
-        add({.section = {},
-             .name = std::move(name),
-             .field = &field,
-             .range = {min, max},
-             .unit = unit,
-             .meaning = meaning});
-    }
-    void count(std::string name, int& field, int min, int max, std::string_view meaning) {
-        add({.section = {},
-             .name = std::move(name),
-             .field = &field,
-             .range = {static_cast<double>(min), static_cast<double>(max)},
-             .unit = {},
-             .meaning = meaning});
-    }
-    void seed(std::string name, std::uint64_t& field, std::string_view meaning) {
-        add({.section = {}, .name = std::move(name), .field = &field, .range = {}, .unit = {}, .meaning = meaning});
-    }
-    void octaves(noise::FbmParameters& p) {
-        count("octaves", p.octaves, 1, noise::kMaxOctaves, "terms of its sum");
-        number("lacunarity", p.lacunarity, 1.0, 10.0, "", "frequency ratio of neighbouring octaves");
-        number("gain", p.gain, 0.0, 1.0, "", "amplitude ratio of neighbouring octaves");
-        number("amplitude", p.amplitude, 0.0, 1e6, "surface units", "amplitude of octave 0");
-        number("frequency", p.frequency, 1e-9, 1e9, "lattice cells a surface unit", "frequency of octave 0");
-        seed("seed", p.seed, "chooses the noise");
-    }
-
-    void add(Key key) { keys_.push_back(std::move(key)); }
-    std::vector<Key> take() { return std::move(keys_); }
-
-  private:
-    std::vector<Key> keys_;
-};
 
 bool is_name(std::string_view name) {
     const auto is_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };

@@ -8,17 +8,16 @@
 #include <vector>
 
 #include "noise/relief/relief.h"
+#include "src/scene/estimators.h"
 #include "src/scene/rate.h"
+#include "src/solid/solid.h"
 
 namespace strata::scene {
 
 enum class ImageKind { surface, zoneplate, checker, wheel, edge, ramp, constant };
-enum class SurfaceKind { terrain, hyperterrain, planet, isosurface };
-enum class BoundKind { ball, box };
 enum class ToneCurve { none, reinhard, agx };
 enum class Interpolation { smooth, linear };
 enum class SkyModel { gradient, daylight };
-enum class EstimatorKind { none, super, uniform, jittered, stratified, random, sobol, shared, shared_sobol };
 
 struct Film {
     int width = 1280;
@@ -47,6 +46,9 @@ struct Sampling {
     int time_order = 1;  // order l of the B-spline in time
     std::uint64_t seed = 1;
     double tolerance = 0.1;  // of a ray's hit, in pixel widths at that distance
+
+    int samples_a_side() const { return row_of(estimator).is_single ? 1 : N; }
+    int samples_a_pixel() const { return samples_a_side() * samples_a_side(); }
 };
 
 struct Shutter {
@@ -77,7 +79,8 @@ struct Camera {
 
 // Sum over octaves k of amplitude * gain^k * n(frequency * lacunarity^k * (x - drift t) + offset_k).
 struct Surface {
-    SurfaceKind kind = SurfaceKind::terrain;
+    solid::Kind kind = solid::kKind<solid::HeightField>;
+    solid::Solids shapes{};  // of each kind, its own keys
     glm::dvec3 origin{0.0};
     glm::dvec3 rotation_deg{0.0};  // about x, then y, then z
     double scale = 1.0;
@@ -90,13 +93,22 @@ struct Surface {
     double amplitude = 0.6;
     double frequency = 0.5;
     std::uint64_t seed = 1;
-    double radius = 10.0;               // planet
-    double threshold = 0.0;             // isosurface: solid where the sum exceeds it
-    BoundKind bound = BoundKind::ball;  // isosurface
-    glm::dvec3 bound_size{1.0};         // ball: radius in x; box: half sizes
 
     // Where there are terms, the last of them stands for the sum over octaves. In scene files: [[relief]].
     std::vector<noise::ReliefTerm> relief{};
+
+    // What is in front of the relief: the shape of the chosen kind.
+    solid::Solid solid() const { return solid::pick(shapes, kind); }
+
+    // The keys of one kind, whether it is the chosen one or not.
+    template <class S>
+    S& shape() {
+        return std::get<S>(shapes);
+    }
+    template <class S>
+    const S& shape() const {
+        return std::get<S>(shapes);
+    }
 };
 
 // How large the scene is, for what is told in metres.

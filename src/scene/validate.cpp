@@ -35,8 +35,10 @@ void check_fields(Scene scene) {
 // Daylight is that of level ground under the Earth's air, and its sun does not go round.
 void check_daylight(const Scene& scene) {
     if (scene.sky.model != SkyModel::daylight) return;
-    if (scene.surface.kind == SurfaceKind::planet) {
-        throw SceneError("sky.model: \"daylight\" has its horizon level, a planet has not, allowed: \"gradient\" here");
+    const solid::KindRow& kind = solid::row_of(scene.surface.kind);
+    if (!kind.is_level) {
+        throw SceneError(fmt::format(
+            "sky.model: \"daylight\" has its horizon level, a {} has not, allowed: \"gradient\" here", kind.name));
     }
     if (scene.surface.spin_deg_per_s != 0.0) {
         throw SceneError(
@@ -52,7 +54,7 @@ void check_relief(const Scene& scene) {
     }
     for (std::size_t i = 0; i < terms.size(); ++i) {
         if (const std::string problem = relief_problem(terms, i); !problem.empty()) throw SceneError(problem);
-        if (scene.surface.kind != SurfaceKind::terrain && is_plane_only(terms[i])) {
+        if (solid::row_of(scene.surface.kind).dimensions != 2 && is_plane_only(terms[i])) {
             throw SceneError(fmt::format(
                 "relief.{}.type: only over a height field, allowed: surface.kind = \"terrain\"", terms[i].name));
         }
@@ -62,7 +64,7 @@ void check_relief(const Scene& scene) {
 // The relief's octaves, wherever a warp reads them.
 void check_relief_octaves(const Scene& scene) {
     const Surface& surface = scene.surface;
-    const noise::Relief relief(surface.relief, surface.kind == SurfaceKind::terrain ? 2 : 3);
+    const noise::Relief relief(surface.relief, solid::row_of(surface.kind).dimensions);
     double displaced = 0.0;
     for (const noise::ReliefPart& part : relief.parts()) {
         if (!part.inputs.empty() && !part.octaves.empty()) displaced += part.amplitude_from.front();
@@ -102,7 +104,7 @@ void check_octaves(const Scene& scene) {
             const std::string octaves =
                 k > 0 ? fmt::format("surface.octaves up to {}, or a lower surface.lacunarity, ", k)
                       : std::string("a lower ");
-            const bool bounded = surface.kind == SurfaceKind::isosurface;
+            const std::string_view reach_key = solid::row_of(surface.kind).reach_key;
             throw SceneError(
                 fmt::format("surface.octaves: octave {} of {} is too fine for double precision ({:.3g} lattice cells a "
                             "surface unit, "
@@ -110,9 +112,9 @@ void check_octaves(const Scene& scene) {
                             "{}surface.frequency or "
                             "{}",
                             k + 1, surface.octaves, frequency, farthest, drifted.empty() ? "," : drifted, octaves,
-                            !drifted.empty() ? "surface.drift, or an earlier frame"
-                            : bounded        ? "surface.bound_size"
-                                             : "camera.far, or a camera nearer to surface.origin"));
+                            !drifted.empty()    ? "surface.drift, or an earlier frame"
+                            : reach_key.empty() ? "camera.far, or a camera nearer to surface.origin"
+                                                : reach_key));
         }
         amplitude *= surface.gain;
         frequency *= surface.lacunarity;
@@ -123,15 +125,12 @@ void check_octaves(const Scene& scene) {
 
 double reach(const Scene& scene) {
     const Surface& surface = scene.surface;
-    if (surface.kind == SurfaceKind::isosurface) {
-        return surface.bound == BoundKind::ball ? surface.bound_size.x : glm::length(surface.bound_size);
-    }
     double eye = 0.0;
     for (const glm::dvec3& x : CameraPath(scene.camera).position_hull(open_shutter(scene))) {
         eye = std::max(eye, glm::distance(x, surface.origin));
     }
     const double along_rays = (eye + scene.camera.far) / surface.scale;
-    return surface.kind == SurfaceKind::planet ? along_rays + surface.radius : along_rays;
+    return solid::visit([&](const auto& shape) { return shape.reach(along_rays); }, surface.solid());
 }
 
 double noise_reach(const Scene& scene) {

@@ -8,6 +8,9 @@
 
 #include "src/trace/field.h"
 #include "src/trace/octave-inl.h"
+#define STRATA_SOLID_LANES
+#include "src/solid/all.h"
+#undef STRATA_SOLID_LANES
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::trace::HWY_NAMESPACE {
@@ -28,60 +31,49 @@ struct Base {
     FloatVec value, slope;
 };
 
-HWY_INLINE Base plane_at(const WidePoint& x, const WidePoint& direction) {
-    return {to_float(x.y), to_float(direction.y)};
-}
+// What the solids' formulas (src/solid) are read with.
+struct SolidLanes {
+    using Point = WidePoint;
+    using Base = HWY_NAMESPACE::Base;
+    using Gradient = FloatPoint;
+    static HWY_INLINE FloatVec number(double x) { return hn::Set(FloatTag(), static_cast<float>(x)); }
+    static HWY_INLINE Wide wide(double x) { return same_wide(x); }
+};
 
-HWY_INLINE Base sphere_at(const Field& field, const WidePoint& x, const WidePoint& direction) {
-    const Wide squared = mul_add(x.x, x.x, mul_add(x.y, x.y, mul(x.z, x.z)));
-    const Wide along = mul_add(x.x, direction.x, mul_add(x.y, direction.y, mul(x.z, direction.z)));
-    const Wide radius = each_part([](auto v) HWY_ATTR { return hn::Sqrt(v); }, squared);
-    const Wide slope = each_part(
-        [](auto a, auto r) HWY_ATTR { return hn::Div(a, hn::Max(r, hn::Set(DoubleTag(), 1e-300))); }, along, radius);
-    const DoubleVec mean = hn::Set(DoubleTag(), field.surface().radius);
-    return {to_float(each_part([&](auto r) HWY_ATTR { return hn::Sub(r, mean); }, radius)), to_float(slope)};
-}
-
-// kPlanar: the noise is 2-D, which it is over a plane alone. The shapes under 3-D noise share one tracer: choosing
-// among them at every step of a packet costs nothing beside an octave, and a tracer for each took three times as long
-// to compile.
-template <bool kPlanar>
-HWY_INLINE Base base_at(const Field& field, const WidePoint& x, const WidePoint& direction) {
-    if constexpr (kPlanar) return plane_at(x, direction);
-    const FloatTag d;
-    switch (field.kind()) {
-        case scene::SurfaceKind::isosurface:
-            return {hn::Set(d, static_cast<float>(field.surface().threshold)), hn::Zero(d)};
-        case scene::SurfaceKind::planet:
-            return sphere_at(field, x, direction);
-        default:
-            return plane_at(x, direction);
+// What `f` makes of the field's solid, as its own type. kPlanar: the noise is 2-D; solids over noise of other
+// dimensions are not asked for. Those over 3-D noise share one tracer: choosing among them at every step of a packet
+// costs nothing beside an octave, and a tracer for each took three times as long to compile.
+template <bool kPlanar, std::size_t I = 0, class F>
+HWY_INLINE auto with_solid(const Field& field, const F& f) {
+    constexpr int kDimensions = kPlanar ? 2 : 3;
+    constexpr auto is_wanted = [](std::size_t i) { return solid::all_solids()[i].dimensions == kDimensions; };
+    constexpr bool kIsLast = [&] {
+        for (std::size_t i = I + 1; i < solid::kKinds; ++i) {
+            if (is_wanted(i)) return false;
+        }
+        return true;
+    }();
+    if constexpr (!is_wanted(I)) {
+        return with_solid<kPlanar, I + 1>(field, f);
+    } else {
+        if constexpr (!kIsLast) {
+            if (field.solid().index() != I) return with_solid<kPlanar, I + 1>(field, f);
+        }
+        return f(*std::get_if<I>(&field.solid()));
     }
 }
 
-HWY_INLINE FloatPoint sphere_gradient_at(const WidePoint& x) {
-    const Wide squared = mul_add(x.x, x.x, mul_add(x.y, x.y, mul(x.z, x.z)));
-    const Wide scale = each_part(
-        [](auto v)
-            HWY_ATTR { return hn::Div(hn::Set(DoubleTag(), 1.0), hn::Max(hn::Sqrt(v), hn::Set(DoubleTag(), 1e-300))); },
-        squared);
-    return {to_float(mul(x.x, scale)), to_float(mul(x.y, scale)), to_float(mul(x.z, scale))};
+template <bool kPlanar>
+HWY_INLINE Base base_at(const Field& field, const WidePoint& x, const WidePoint& direction) {
+    return with_solid<kPlanar>(
+        field, [&](const auto& s) HWY_ATTR { return solid::HWY_NAMESPACE::base_of<SolidLanes>(s, x, direction); });
 }
 
 // The gradient of the part without noise, whose tangent is a lower bound all around.
 template <bool kPlanar>
 HWY_INLINE FloatPoint base_gradient_at(const Field& field, const WidePoint& x) {
-    const FloatTag d;
-    const FloatPoint up = {hn::Zero(d), hn::Set(d, 1.0f), hn::Zero(d)};
-    if constexpr (kPlanar) return up;
-    switch (field.kind()) {
-        case scene::SurfaceKind::isosurface:
-            return {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-        case scene::SurfaceKind::planet:
-            return sphere_gradient_at(x);
-        default:
-            return up;
-    }
+    return with_solid<kPlanar>(
+        field, [&](const auto& s) HWY_ATTR { return solid::HWY_NAMESPACE::gradient_of<SolidLanes>(s, x); });
 }
 
 }  // namespace strata::trace::HWY_NAMESPACE

@@ -200,8 +200,7 @@ void trace_beams_over(const Field& field, const TracePlan& plan, std::span<const
 
 void TraceBeams(const Field& field, const TracePlan& plan, std::span<const Beam> beams, std::span<BeamEnd> ends,
                 TraceCounters& counters) {
-    if (field.is_planar_noise()) return trace_beams_over<true>(field, plan, beams, ends, counters);
-    trace_beams_over<false>(field, plan, beams, ends, counters);
+    by_dimensions(field, [&](auto planar) HWY_ATTR { trace_beams_over<planar()>(field, plan, beams, ends, counters); });
 }
 
 }  // namespace strata::trace::HWY_NAMESPACE
@@ -213,8 +212,9 @@ namespace strata::trace {
 HWY_EXPORT(TraceBeams);
 
 void BeamTracer::trace(std::span<const Beam> beams, std::span<BeamEnd> ends, TraceCounters& counters) const {
-    if (relief_) return trace_relief_beams(field_, *relief_, beams, ends, counters);
-    HWY_DYNAMIC_DISPATCH(TraceBeams)(field_, plan_, beams, ends, counters);
+    if (field_.relief_plan() != nullptr)
+        return trace_relief_beams(field_, *field_.relief_plan(), beams, ends, counters);
+    HWY_DYNAMIC_DISPATCH(TraceBeams)(field_, field_.plan(), beams, ends, counters);
 }
 
 }  // namespace strata::trace

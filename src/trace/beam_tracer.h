@@ -6,7 +6,6 @@
 // choice of one bound an octave, f >= a quadratic in t alone, whose first root is a safe step for the whole bundle.
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "src/trace/beam.h"
@@ -19,17 +18,13 @@ namespace strata::trace {
 
 class BeamTracer {
   public:
-    explicit BeamTracer(const Field& field) : field_(field), plan_(field) {
-        if (field.relief() != nullptr) relief_.emplace(*field.relief());
-    }
+    explicit BeamTracer(const Field& field) : field_(field) {}
 
     // A beam's end depends on that beam alone.
     void trace(std::span<const Beam> beams, std::span<BeamEnd> ends, TraceCounters& counters) const;
 
   private:
     const Field& field_;
-    TracePlan plan_;
-    std::optional<ReliefPlan> relief_;  // where the field has a composed relief
 };
 
 }  // namespace strata::trace

@@ -188,11 +188,8 @@ void bracket_rays(const Field& field, const TracePlan& plan, std::span<const Ray
 
 void BracketRays(const Field& field, const TracePlan& plan, std::span<const Ray> rays, const WindowedRays& group,
                  float half_curvature, std::span<Bracket> brackets) {
-    if (field.is_planar_noise()) {
-        bracket_rays<true>(field, plan, rays, group, half_curvature, brackets);
-    } else {
-        bracket_rays<false>(field, plan, rays, group, half_curvature, brackets);
-    }
+    by_dimensions(field, [&](auto planar)
+                             HWY_ATTR { bracket_rays<planar()>(field, plan, rays, group, half_curvature, brackets); });
 }
 
 }  // namespace strata::trace::HWY_NAMESPACE
@@ -204,14 +201,12 @@ namespace strata::trace {
 HWY_EXPORT(BracketRays);
 
 double Bracketer::half_curvature(const Field& field) {
-    if (field.kind() != scene::SurfaceKind::planet) return 0.0;
-    // A planet's solid points have |x| >= R - amplitude, and so has a ray up to its first hit.
-    const double least = field.surface().radius - field.amplitude();
-    return least > 0.0 ? 0.5 / least * kRoundUp : std::numeric_limits<double>::infinity();
+    return solid::visit([&](const auto& s) { return s.half_curvature(field.amplitude()); }, field.solid()) * kRoundUp;
 }
 
 void Bracketer::bracket(std::span<const Ray> rays, const WindowedRays& group, std::span<Bracket> brackets) const {
-    HWY_DYNAMIC_DISPATCH(BracketRays)(field_, plan_, rays, group, static_cast<float>(half_curvature_), brackets);
+    HWY_DYNAMIC_DISPATCH(BracketRays)
+    (field_, field_.plan(), rays, group, static_cast<float>(half_curvature_), brackets);
 }
 
 }  // namespace strata::trace

@@ -38,18 +38,17 @@ struct Bracket {
 
 class Bracketer {
   public:
-    explicit Bracketer(const Field& field) : field_(field), plan_(field), half_curvature_(half_curvature(field)) {}
+    explicit Bracketer(const Field& field) : field_(field), half_curvature_(half_curvature(field)) {}
 
     // brackets: of each ray. A ray's bracket depends on that ray and its windows alone.
     void bracket(std::span<const Ray> rays, const WindowedRays& group, std::span<Bracket> brackets) const;
 
     // Bound of half the second derivative of the base along any ray wherever it may be solid; infinite where there is
-    // none. Of a sphere's distance at |x| = r it is 1 / 2r.
+    // none.
     static double half_curvature(const Field& field);
 
   private:
     const Field& field_;
-    TracePlan plan_;
     double half_curvature_;
 };
 

@@ -250,8 +250,7 @@ void trace_over(const Field& field, const TracePlan& plan, std::span<const Ray> 
 
 void Trace(const Field& field, const TracePlan& plan, std::span<const Ray> rays, std::span<Hit> hits,
            TraceCounters& counters) {
-    if (field.is_planar_noise()) return trace_over<true>(field, plan, rays, hits, counters);
-    trace_over<false>(field, plan, rays, hits, counters);
+    by_dimensions(field, [&](auto planar) HWY_ATTR { trace_over<planar()>(field, plan, rays, hits, counters); });
 }
 
 }  // namespace strata::trace::HWY_NAMESPACE
@@ -263,8 +262,9 @@ namespace strata::trace {
 HWY_EXPORT(Trace);
 
 void FastTracer::trace(std::span<const Ray> rays, std::span<Hit> hits, TraceCounters& counters) const {
-    if (relief_) return trace_relief(field_, plan_, *relief_, rays, hits, counters);
-    HWY_DYNAMIC_DISPATCH(Trace)(field_, plan_, rays, hits, counters);
+    if (field_.relief_plan() != nullptr)
+        return trace_relief(field_, field_.plan(), *field_.relief_plan(), rays, hits, counters);
+    HWY_DYNAMIC_DISPATCH(Trace)(field_, field_.plan(), rays, hits, counters);
 }
 
 }  // namespace strata::trace

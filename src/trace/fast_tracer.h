@@ -16,7 +16,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <optional>
 #include <span>
 
 #include "src/trace/field.h"
@@ -28,9 +27,7 @@ namespace strata::trace {
 
 class FastTracer {
   public:
-    explicit FastTracer(const Field& field) : field_(field), plan_(field) {
-        if (field.relief() != nullptr) relief_.emplace(*field.relief());
-    }
+    explicit FastTracer(const Field& field) : field_(field) {}
 
     // A ray's hit depends on that ray alone, whatever its neighbours in the batch.
     void trace(std::span<const Ray> rays, std::span<Hit> hits, TraceCounters& counters) const;
@@ -49,8 +46,6 @@ class FastTracer {
 
   private:
     const Field& field_;
-    TracePlan plan_;
-    std::optional<ReliefPlan> relief_;  // where the field has a composed relief
 };
 
 }  // namespace strata::trace

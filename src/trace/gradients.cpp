@@ -52,11 +52,7 @@ HWY_INLINE void subtract_octaves(const TracePlan& plan, GradientBlock& block) {
 HWY_INLINE void finish_block(const Field& field, const TracePlan& plan, GradientBlock& block,
                              std::span<glm::vec3> gradient, TraceCounters& counters) {
     if (block.count == 0) return;
-    if (field.is_planar_noise()) {
-        subtract_octaves<true>(plan, block);
-    } else {
-        subtract_octaves<false>(plan, block);
-    }
+    by_dimensions(field, [&](auto planar) HWY_ATTR { subtract_octaves<planar()>(plan, block); });
     counters.executed_lanes += hn::Lanes(FloatTag()) * (plan.octaves.size() - block.least);
     for (std::size_t i = 0; i < block.count; ++i) {
         gradient[block.point[i]] = {block.gradient[0][i], block.gradient[1][i], block.gradient[2][i]};
@@ -110,15 +106,17 @@ HWY_EXPORT(Gradients);
 
 void FastTracer::gradients(std::span<const glm::dvec3> x, std::span<const glm::dvec3> noise_shift,
                            std::span<glm::vec3> gradient, TraceCounters& counters) const {
-    if (relief_) return relief_gradients(field_, *relief_, x, noise_shift, gradient, counters);
-    HWY_DYNAMIC_DISPATCH(Gradients)(field_, plan_, {}, x, noise_shift, gradient, counters);
+    if (field_.relief_plan() != nullptr)
+        return relief_gradients(field_, *field_.relief_plan(), x, noise_shift, gradient, counters);
+    HWY_DYNAMIC_DISPATCH(Gradients)(field_, field_.plan(), {}, x, noise_shift, gradient, counters);
 }
 
 void FastTracer::gradients(std::span<const Hit> hits, std::span<const glm::dvec3> x,
                            std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient,
                            TraceCounters& counters) const {
-    if (relief_) return relief_gradients(field_, *relief_, x, noise_shift, gradient, counters);
-    HWY_DYNAMIC_DISPATCH(Gradients)(field_, plan_, hits, x, noise_shift, gradient, counters);
+    if (field_.relief_plan() != nullptr)
+        return relief_gradients(field_, *field_.relief_plan(), x, noise_shift, gradient, counters);
+    HWY_DYNAMIC_DISPATCH(Gradients)(field_, field_.plan(), hits, x, noise_shift, gradient, counters);
 }
 
 }  // namespace strata::trace

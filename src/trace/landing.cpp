@@ -239,8 +239,9 @@ void land_all(const Field& field, const LandingPlan& plan, std::span<const Ray> 
 void LandAll(const Field& field, const LandingPlan& plan, std::span<const Ray> rays,
              std::span<const std::uint32_t> landing, std::span<Bracket> brackets, std::span<Hit> hits,
              std::vector<std::uint32_t>& again, TraceCounters& counters) {
-    if (field.is_planar_noise()) return land_all<true>(field, plan, rays, landing, brackets, hits, again, counters);
-    land_all<false>(field, plan, rays, landing, brackets, hits, again, counters);
+    by_dimensions(field, [&](auto planar) HWY_ATTR {
+        land_all<planar()>(field, plan, rays, landing, brackets, hits, again, counters);
+    });
 }
 
 }  // namespace strata::trace::HWY_NAMESPACE
@@ -251,7 +252,7 @@ namespace strata::trace {
 
 HWY_EXPORT(LandAll);
 
-LandingPlan::LandingPlan(const Field& field) : trace(field) {
+LandingPlan::LandingPlan(const Field& field) : trace(field.plan()) {
     const noise::NoiseBounds& bounds = field.is_planar_noise() ? noise::kBounds2 : noise::kBounds3;
     const noise::FloatErrors& errors = field.is_planar_noise() ? noise::kFloatErrors2 : noise::kFloatErrors3;
     double squares = 0.0, cubes = 0.0;

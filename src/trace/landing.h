@@ -22,7 +22,7 @@ namespace strata::trace {
 struct LandingPlan {
     explicit LandingPlan(const Field& field);
 
-    TracePlan trace;
+    const TracePlan& trace;
 
     // sum a w^3 T / 6.
     float cube = 0.0f;

@@ -6,6 +6,9 @@
 #define STRATA_TRACE_OCTAVE_INL_H_
 #endif
 
+#include <type_traits>
+
+#include "src/trace/field.h"
 #include "src/trace/trace_plan.h"
 #include "src/trace/wide-inl.h"
 
@@ -16,6 +19,14 @@ namespace simd_noise = strata::noise::HWY_NAMESPACE;
 
 // Cells within this distance of the origin share one block of the hash, with room for the cell above.
 inline constexpr double kNearCells = 0x1p30;
+
+// The one choice that the kernels are compiled twice for: calls `f` with std::true_type where the field's noise is 2-D,
+// else with std::false_type.
+template <class F>
+HWY_INLINE auto by_dimensions(const Field& field, const F& f) {
+    if (field.is_planar_noise()) return f(std::true_type());
+    return f(std::false_type());
+}
 
 struct OctaveSample {
     FloatVec value, dx, dy, dz;  // of n; derivatives in lattice units

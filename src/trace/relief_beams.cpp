@@ -119,8 +119,8 @@ HWY_NOINLINE void trace_relief_beams_of(const Field& field, const ReliefPlan& pl
 
 void TraceReliefBeams(const Field& field, const ReliefPlan& plan, std::span<const Beam> beams, std::span<BeamEnd> ends,
                       TraceCounters& counters) {
-    if (field.is_planar_noise()) return trace_relief_beams_of<true>(field, plan, beams, ends, counters);
-    trace_relief_beams_of<false>(field, plan, beams, ends, counters);
+    by_dimensions(field,
+                  [&](auto planar) HWY_ATTR { trace_relief_beams_of<planar()>(field, plan, beams, ends, counters); });
 }
 
 }  // namespace strata::trace::HWY_NAMESPACE

@@ -182,8 +182,8 @@ HWY_NOINLINE void trace_relief_rays(const Field& field, const TracePlan& constan
 
 void TraceRelief(const Field& field, const TracePlan& constants, const ReliefPlan& plan, std::span<const Ray> rays,
                  std::span<Hit> hits, TraceCounters& counters) {
-    if (field.is_planar_noise()) return trace_relief_rays<true>(field, constants, plan, rays, hits, counters);
-    trace_relief_rays<false>(field, constants, plan, rays, hits, counters);
+    by_dimensions(field, [&](auto planar)
+                             HWY_ATTR { trace_relief_rays<planar()>(field, constants, plan, rays, hits, counters); });
 }
 
 // Gradients of f at points, all octaves of the relief evaluated.
@@ -223,8 +223,8 @@ HWY_NOINLINE void relief_gradients(const Field& field, const ReliefPlan& plan, s
 
 void ReliefGradients(const Field& field, const ReliefPlan& plan, std::span<const glm::dvec3> x,
                      std::span<const glm::dvec3> noise_shift, std::span<glm::vec3> gradient, TraceCounters& counters) {
-    if (field.is_planar_noise()) return relief_gradients<true>(field, plan, x, noise_shift, gradient, counters);
-    relief_gradients<false>(field, plan, x, noise_shift, gradient, counters);
+    by_dimensions(field, [&](auto planar)
+                             HWY_ATTR { relief_gradients<planar()>(field, plan, x, noise_shift, gradient, counters); });
 }
 
 }  // namespace strata::trace::HWY_NAMESPACE

@@ -54,8 +54,8 @@ TracePlan::TracePlan(const Field& field) {
     error_absolute = round_up(errors.value * total + roundings * 2.0 * field.amplitude());
     slope_error = round_up(errors.slope * slopes + (roundings + kSlopeFactors) * field.lipschitz());
     inverse_lipschitz = static_cast<float>(1.0 / std::max(field.lipschitz(), 1e-30));
-    if (field.relief() != nullptr) {
-        first_hint = ReliefPlan(*field.relief()).first_hint;
+    if (field.relief_plan() != nullptr) {
+        first_hint = field.relief_plan()->first_hint;
         return;
     }
     first_hint = octaves.empty() ? 1.0f : static_cast<float>(0.15 / octaves.front().frequency);

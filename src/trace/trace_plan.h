@@ -28,6 +28,7 @@ struct TraceOctave {
 TraceOctave prepare_octave(const noise::Octave& octave);
 
 struct TracePlan {
+    // Of a field whose relief_plan() is made.
     explicit TracePlan(const Field& field);
 
     std::vector<TraceOctave> octaves;

@@ -79,6 +79,22 @@ HWY_INLINE Wide max(const Wide& a, const Wide& b) {
     return each_part([](auto x, auto y) HWY_ATTR { return hn::Max(x, y); }, a, b);
 }
 
+HWY_INLINE Wide same_wide(double x) {
+    Wide result;
+    result.part.fill(hn::Set(DoubleTag(), x));
+    return result;
+}
+
+HWY_INLINE Wide root(const Wide& a) {
+    return each_part([](auto x) HWY_ATTR { return hn::Sqrt(x); }, a);
+}
+
+// a / b, b at least 0; finite where b is 0, too.
+HWY_INLINE Wide quotient(const Wide& a, const Wide& b) {
+    return each_part([](auto x, auto y) HWY_ATTR { return hn::Div(x, hn::Max(y, hn::Set(DoubleTag(), 1e-300))); }, a,
+                     b);
+}
+
 HWY_INLINE Wide floor(const Wide& a) {
     return each_part([](auto x) HWY_ATTR { return hn::Floor(x); }, a);
 }

@@ -90,7 +90,7 @@ HWY_INLINE void store_jets(const JetSums& sums, std::span<Window> windows) {
     }
 }
 
-void EvaluateJets(const TracePlan& plan, bool is_planar, std::span<Window> windows, TraceCounters& counters) {
+void EvaluateJets(const Field& field, std::span<Window> windows, TraceCounters& counters) {
     const std::size_t lanes = hn::Lanes(FloatTag());
     for (std::size_t begin = 0; begin < windows.size(); begin += lanes) {
         const std::span<Window> part = windows.subspan(begin, std::min(lanes, windows.size() - begin));
@@ -107,7 +107,8 @@ void EvaluateJets(const TracePlan& plan, bool is_planar, std::span<Window> windo
             ++counters.steps;
         }
         counters.executed_lanes += lanes * block.most_octaves;
-        store_jets(is_planar ? sum_jets<true>(plan, block) : sum_jets<false>(plan, block), part);
+        store_jets(by_dimensions(field, [&](auto planar) HWY_ATTR { return sum_jets<planar()>(field.plan(), block); }),
+                   part);
     }
 }
 
@@ -120,7 +121,7 @@ namespace strata::trace {
 HWY_EXPORT(EvaluateJets);
 
 void WindowJets::evaluate(std::span<Window> windows, TraceCounters& counters) const {
-    HWY_DYNAMIC_DISPATCH(EvaluateJets)(plan_, is_planar_, windows, counters);
+    HWY_DYNAMIC_DISPATCH(EvaluateJets)(field_, windows, counters);
 }
 
 }  // namespace strata::trace

@@ -12,14 +12,13 @@ namespace strata::trace {
 
 class WindowJets {
   public:
-    explicit WindowJets(const Field& field) : is_planar_(field.is_planar_noise()), plan_(field) {}
+    explicit WindowJets(const Field& field) : field_(field) {}
 
     // Sets value, gradient and hessian from centre and octaves.
     void evaluate(std::span<Window> windows, TraceCounters& counters) const;
 
   private:
-    bool is_planar_;
-    TracePlan plan_;
+    const Field& field_;
 };
 
 }  // namespace strata::trace

@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "src/trace/beam_tracer.h"
+#include "tests/support/surfaces.h"
 #include "tests/trace/ray_families.h"
 
 using namespace strata;
 using namespace strata::accel;
 using namespace strata::trace_test;
-using scene::SurfaceKind;
 
 namespace {
 
@@ -29,14 +29,14 @@ void add_keys(Random& random, scene::Camera& camera) {
 }
 
 // A sum of 1: spinning, 2: drifting, 4: the camera moving.
-scene::Scene random_scene(Random& random, SurfaceKind kind, int motion) {
+scene::Scene random_scene(Random& random, solid::Kind kind, int motion) {
     scene::Scene scene;
     scene.film = {.width = 1 + static_cast<int>(random() % 2000), .height = 1 + static_cast<int>(random() % 2000)};
     scene::Surface& s = scene.surface = surface_of(kind);
-    s.bound = random() % 2 == 0 ? scene::BoundKind::ball : scene::BoundKind::box;
+    s.shape<solid::LevelSet>().bound = random() % 2 == 0 ? solid::LevelSet::Bound::ball : solid::LevelSet::Bound::box;
     s.octaves = 1 + static_cast<int>(random() % 8);
     s.amplitude = log_uniform(random, 1e-2, 2.0);
-    s.radius = log_uniform(random, 0.1, 1e3);
+    s.shape<solid::Sphere>().radius = log_uniform(random, 0.1, 1e3);
     s.scale = random() % 2 == 0 ? 1.0 : log_uniform(random, 1e-3, 1e3);
     if (random() % 2 == 0) {
         s.origin = log_uniform(random, 0.1, 1e4) * unit_vector(random);
@@ -47,7 +47,8 @@ scene::Scene random_scene(Random& random, SurfaceKind kind, int motion) {
         s.spin_deg_per_s = log_uniform(random, 1e-2, 720.0) * (random() % 2 == 0 ? 1.0 : -1.0);
     }
     if ((motion & 2) != 0) s.drift = log_uniform(random, 1e-3, 10.0) * unit_vector(random);
-    const double size = s.scale * (kind == SurfaceKind::planet ? s.radius + s.amplitude : 4.0);
+    const solid::Extent extent = trace::Field(s).extent();
+    const double size = s.scale * (std::isfinite(extent.ball) ? extent.ball : 4.0);
     const glm::dvec3 away = unit_vector(random);
     scene.camera.position = s.origin + log_uniform(random, 0.3, 20.0) * size * away;
     scene.camera.look_at = s.origin + uniform(random, 0.0, 1.2) * size * unit_vector(random) + 1e-3 * size * away;
@@ -93,21 +94,21 @@ struct Scenery {
         return placement.to_local(placement.orientation(t), world, field.noise_shift(t));
     }
 
-    // What is solid may be there. |f| of a planet's base exceeds what noise of at most 1.04 each octave takes off.
+    // What is solid may be there.
     bool may_be_solid(const glm::dvec3& x) const {
-        const scene::Surface& s = scene.surface;
-        switch (s.kind) {
-            case SurfaceKind::planet: {
-                double noise = 0.0;
-                for (int k = 0; k < s.octaves; ++k) noise += s.amplitude * std::pow(s.gain, k);
-                return glm::length(x) <= s.radius + 1.0363 * noise;
+        const oracle::Shape shape = oracle::shape_of(scene.surface);
+        if (shape.container == oracle::Container::ball) return glm::length(x) <= shape.container_size[0];
+        if (shape.container == oracle::Container::box) {
+            for (int a = 0; a < 3; ++a) {
+                if (std::abs(x[a]) > shape.container_size[static_cast<std::size_t>(a)]) return false;
             }
-            case SurfaceKind::isosurface:
-                if (s.bound == scene::BoundKind::ball) return glm::length(x) <= s.bound_size.x;
-                return glm::all(glm::lessThanEqual(glm::abs(x), s.bound_size));
-            default:
-                return true;
+            return true;
         }
+        // The base exceeds what noise of at most 1.04 each octave takes off.
+        double noise = 0.0;
+        for (int k = 0; k < scene.surface.octaves; ++k)
+            noise += scene.surface.amplitude * std::pow(scene.surface.gain, k);
+        return oracle::FieldOracle(shape).base({x.x, x.y, x.z}) <= 1.0363 * noise;
     }
 
     scene::Scene scene;
@@ -175,7 +176,7 @@ void measure(Random& random, const Scenery& scenery, const ScreenCell& cell, Exc
     }
 }
 
-void check_kind(SurfaceKind kind, int motion) {
+void check_kind(solid::Kind kind, int motion) {
     // Of lengths that are of the order of `size`: some roundings.
     constexpr double kRounding = 1e-14;
     Random random(91 + 8 * static_cast<std::uint64_t>(kind) + static_cast<std::uint64_t>(motion));
@@ -199,28 +200,25 @@ void check_kind(SurfaceKind kind, int motion) {
     CHECK(worst.widest_share > 0.9);
 }
 
-constexpr SurfaceKind kKinds[] = {SurfaceKind::terrain, SurfaceKind::hyperterrain, SurfaceKind::planet,
-                                  SurfaceKind::isosurface};
-
 }  // namespace
 
 TEST_CASE("rays through a cell stay in its beam, over surfaces at rest: scaled, turned and far away ones too") {
-    for (const SurfaceKind kind : kKinds) check_kind(kind, 0);
+    for (const solid::Kind kind : support::all_kinds()) check_kind(kind, 0);
 }
 
 TEST_CASE("rays through a cell at all of its times stay in its beam, over surfaces that spin") {
-    for (const SurfaceKind kind : kKinds) check_kind(kind, 1);
+    for (const solid::Kind kind : support::all_kinds()) check_kind(kind, 1);
 }
 
 TEST_CASE("rays through a cell at all of its times stay in its beam, with noise that drifts, spinning or not") {
-    for (const SurfaceKind kind : kKinds) {
+    for (const solid::Kind kind : support::all_kinds()) {
         check_kind(kind, 2);
         check_kind(kind, 3);
     }
 }
 
 TEST_CASE("rays through a cell at all of its times stay in its beam, of a camera that moves, over all else that may") {
-    for (const SurfaceKind kind : kKinds) {
+    for (const solid::Kind kind : support::all_kinds()) {
         for (const int motion : {4, 5, 6, 7}) check_kind(kind, motion);
     }
 }
@@ -228,23 +226,21 @@ TEST_CASE("rays through a cell at all of its times stay in its beam, of a camera
 namespace {
 
 // A surface with spikes, or a nearly smooth one, that spins past an eye close to it.
-scene::Scene spikes(Random& random, SurfaceKind kind) {
+scene::Scene spikes(Random& random, solid::Kind kind) {
     scene::Scene scene;
     scene.film = {.width = 64, .height = 36};
     scene.surface = surface_of(kind);
     scene.surface.octaves = 1 + static_cast<int>(random() % 3);
     scene.surface.amplitude = random() % 2 == 0 ? log_uniform(random, 0.5, 2.0) : log_uniform(random, 1e-3, 0.5);
     scene.surface.frequency = log_uniform(random, 0.2, 1.0);
-    scene.surface.radius = 4.0;
-    scene.surface.threshold = 0.2 * scene.surface.amplitude;
-    scene.surface.bound_size = glm::dvec3(6.0);
+    scene.surface.shape<solid::Sphere>().radius = 4.0;
+    scene.surface.shape<solid::LevelSet>().threshold = 0.2 * scene.surface.amplitude;
+    scene.surface.shape<solid::LevelSet>().bound_size = glm::dvec3(6.0);
     scene.surface.seed = random() >> 1;
     scene.surface.spin_deg_per_s = 60.0;
     const double height = uniform(random, 0.1, 0.7) * std::max(0.3, scene.surface.amplitude);
     const glm::dvec3 away = uniform(random, 2.0, 5.0) * unit_vector(random);
-    scene.camera.position = kind == SurfaceKind::planet       ? (scene.surface.radius + height) * glm::normalize(away)
-                            : kind == SurfaceKind::isosurface ? away
-                                                              : glm::dvec3(away.x, height, away.z);
+    scene.camera.position = solid::over(scene.surface.solid(), away, height);
     // Land that goes past, up or down, or anyhow; seen about the way that the eye takes over it.
     const glm::dvec3 axes[] = {glm::dvec3(0.0, 1.0, 0.0), unit_vector(random),
                                glm::normalize(glm::cross(away, glm::dvec3(0.0, 1.0, 0.0)))};
@@ -260,7 +256,7 @@ scene::Scene spikes(Random& random, SurfaceKind kind) {
 
 TEST_CASE("every ray of a cell is free up to where the cell's beam ended, where land spins past the eye") {
     Random random(96);
-    for (const SurfaceKind kind : kKinds) {
+    for (const solid::Kind kind : support::all_kinds()) {
         int passed = 0, rays = 0, inside = 0;
         for (int trial = 0; trial < 1500; ++trial) {
             const Scenery scenery(spikes(random, kind));

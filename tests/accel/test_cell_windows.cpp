@@ -119,7 +119,7 @@ struct TracedByWindows {
 // Surfaces on which windows matter: not too many octaves.
 scene::Surface smooth_surface(Random& random, int index) {
     scene::Surface surface = index % 3 == 2 ? random_drifting_surface(random) : random_surface(random);
-    surface.kind = static_cast<scene::SurfaceKind>(index % 4);
+    surface.kind = support::any_kind(static_cast<std::uint64_t>(index));
     surface.octaves = 1 + static_cast<int>(random() % 9);
     return surface;
 }
@@ -270,7 +270,7 @@ TEST_CASE("the gradient that a landing reports is the noise's, within delta of t
         for (const noise::Octave& o : c.field.octaves()) {
             bend += o.amplitude * o.frequency * o.frequency * bounds.second;
         }
-        if (c.surface.kind == scene::SurfaceKind::planet) bend += 1.0 / (c.surface.radius - c.field.amplitude());
+        bend += 2.0 * trace::Bracketer::half_curvature(c.field);
         for (std::size_t k = 0; k < traced.hits.size(); ++k) {
             const Hit& hit = traced.hits[k];
             if (!traced.settled[k] || hit.state != trace::HitState::hit) continue;

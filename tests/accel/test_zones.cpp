@@ -144,7 +144,7 @@ TEST_CASE("no ray of a bundle meets the surface outside of its zones, nor of tho
 
 TEST_CASE("a bundle's zones depend on that bundle alone") {
     Random random(20061202);
-    scene::Surface surface = surface_of(scene::SurfaceKind::hyperterrain);
+    scene::Surface surface = surface_of(solid::kKind<solid::DisplacedPlane>);
     surface.amplitude = 0.7;
     const trace::Field field(surface);
     const trace::BeamTracer beams(field);

@@ -8,6 +8,7 @@
 #include "src/estimate/estimator.h"
 #include "src/filter/bspline.h"
 #include "tests/render/image_functions.h"
+#include "tests/support/estimators.h"
 
 using namespace strata;
 using namespace strata::estimate;
@@ -49,7 +50,7 @@ void samples_of(const Estimator& estimator, std::span<const glm::ivec2> owners, 
 }  // namespace
 
 TEST_CASE("a sample depends on its pixel and index alone: other order, other company, same samples") {
-    for (const EstimatorKind kind : kAllEstimators) {
+    for (const EstimatorKind kind : support::kAllEstimators) {
         const Estimator estimator(settings(kind, 3, 4, 0.02, 2));
         std::vector<glm::ivec2> pixels = some_pixels(100);
         SampleSet together;
@@ -156,7 +157,7 @@ TEST_CASE("grids: none at the centre, super over the pixel, uniform over the sup
 }
 
 TEST_CASE("weights as applied sum to 1, also where a high order leaves few samples any weight") {
-    for (const EstimatorKind kind : kAllEstimators) {
+    for (const EstimatorKind kind : support::kAllEstimators) {
         for (const int m : {1, 4, 5, 100}) {
             for (const int N : {1, 2, 5}) {
                 if (m == 100 && N == 5) continue;

@@ -47,8 +47,10 @@ std::vector<std::string> differences_from_pinned(const Record& pinned, const Rec
 
 TEST_CASE("every kind of image, surface, bound, camera path and estimator has a golden scene") {
     CHECK(left_out<scene::ImageKind>([](const scene::Scene& s) { return s.image; }).empty());
-    CHECK(left_out<scene::SurfaceKind>([](const scene::Scene& s) { return s.surface.kind; }).empty());
-    CHECK(left_out<scene::BoundKind>([](const scene::Scene& s) { return s.surface.bound; }).empty());
+    CHECK(left_out<solid::Kind>([](const scene::Scene& s) { return s.surface.kind; }).empty());
+    CHECK(left_out<solid::LevelSet::Bound>([](const scene::Scene& s) {
+              return s.surface.shape<solid::LevelSet>().bound;
+          }).empty());
     CHECK(left_out<scene::Interpolation>([](const scene::Scene& s) { return s.camera.interpolation; }).empty());
     CHECK(left_out<scene::EstimatorKind>([](const scene::Scene& s) { return s.sampling.estimator; }).empty());
 }

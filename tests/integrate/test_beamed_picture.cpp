@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "src/integrate/surface_image.h"
+#include "tests/support/surfaces.h"
 #include "tools/stability/oracles/ray_oracle.h"
 #include "tools/stability/oracles/shape_of.h"
 
 using namespace strata;
 using namespace strata::integrate;
-using scene::SurfaceKind;
 
 namespace {
 
@@ -31,55 +31,45 @@ struct Named {
 };
 
 // The camera rests, so that rays have beams.
-scene::Scene base_scene(SurfaceKind kind) {
-    scene::Scene scene;
-    scene.film = {.width = kWidth, .height = kHeight};
+scene::Scene base_scene(solid::Kind kind) {
+    scene::Scene scene = support::small_scene(kind, kWidth, kHeight);
     scene.sampling.N = 3;
-    scene.surface.kind = kind;
     scene.surface.octaves = 6;
-    scene.surface.bound_size = {1.5, 1.2, 1.4};
-    scene.surface.radius = 2.0;
-    scene.camera.far = 60.0;
-    scene.camera.look_at = {0.3, 0.8, 1.0};
-    if (kind == SurfaceKind::planet || kind == SurfaceKind::isosurface) {
-        scene.camera.position = {0.5, 1.0, -5.0};
-        scene.camera.look_at = glm::dvec3(0.0);
-    }
+    scene.surface.shape<solid::LevelSet>().bound_size = {1.5, 1.2, 1.4};
+    if (support::is_bounded(scene.surface)) scene.camera.position.z = -5.0;
     return scene;
 }
 
 std::vector<Named> scenes() {
     std::vector<Named> all;
-    const auto add = [&](const char* name, SurfaceKind kind) -> scene::Scene& {
+    const auto add = [&](const std::string& name, solid::Kind kind) -> scene::Scene& {
         all.push_back({name, base_scene(kind)});
         return all.back().scene;
     };
-    add("hyperterrain", SurfaceKind::hyperterrain);
-    add("terrain", SurfaceKind::terrain);
-    add("planet", SurfaceKind::planet);
-    add("isosurface in a ball", SurfaceKind::isosurface);
-    add("isosurface in a box", SurfaceKind::isosurface).surface.bound = scene::BoundKind::box;
+    for (const solid::KindRow& row : solid::all_solids()) add(std::string(row.name), row.kind);
+    add("isosurface in a box", solid::kKind<solid::LevelSet>).surface.shape<solid::LevelSet>().bound =
+        solid::LevelSet::Bound::box;
     {
-        scene::Scene& s = add("planet that spins", SurfaceKind::planet);
+        scene::Scene& s = add("planet that spins", solid::kKind<solid::Sphere>);
         s.surface.spin_deg_per_s = 90.0, s.shutter.open_s = 0.1;
     }
     {
-        scene::Scene& s = add("hyperterrain that drifts", SurfaceKind::hyperterrain);
+        scene::Scene& s = add("hyperterrain that drifts", solid::kKind<solid::DisplacedPlane>);
         s.surface.drift = {2.0, -0.5, 3.0}, s.shutter.open_s = 0.1;
     }
     {
-        scene::Scene& s = add("isosurface that spins, drifts, is scaled and turned", SurfaceKind::isosurface);
+        scene::Scene& s = add("isosurface that spins, drifts, is scaled and turned", solid::kKind<solid::LevelSet>);
         s.surface.drift = {0.5, 0.3, -0.6}, s.surface.spin_deg_per_s = -120.0, s.shutter.open_s = 0.1;
         s.surface.scale = 1.3, s.surface.rotation_deg = {20.0, -40.0, 70.0}, s.surface.origin = {0.2, -0.1, 0.3};
     }
     {
         // The eye is close to the ground and far from the axis: it moves fast over the land, at a slope to it.
-        scene::Scene& s = add("terrain that spins under the eye", SurfaceKind::terrain);
+        scene::Scene& s = add("terrain that spins under the eye", solid::kKind<solid::HeightField>);
         s.surface.spin_deg_per_s = 80.0, s.surface.amplitude = 1.5, s.shutter.open_s = 0.2;
         s.camera.position = {6.0, 0.9, 0.0}, s.camera.look_at = {6.2, 0.7, 1.0};
     }
     {
-        scene::Scene& s = add("planet whose hills spin past the eye", SurfaceKind::planet);
+        scene::Scene& s = add("planet whose hills spin past the eye", solid::kKind<solid::Sphere>);
         s.surface.spin_deg_per_s = 80.0, s.surface.amplitude = 0.6, s.shutter.open_s = 0.4;
         s.surface.frequency = 1.0;
         s.camera.position = {2.3, 0.0, 0.0}, s.camera.look_at = {2.2, 0.1, -1.0};

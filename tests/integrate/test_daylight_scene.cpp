@@ -94,7 +94,7 @@ TEST_CASE("below the shadow's height there is no sun, above it all of it, and it
 TEST_CASE("daylight over a planet or over ground that spins is refused") {
     scene::Scene scene = daylight_scene();
     CHECK_NOTHROW(scene::validate(scene, ""));
-    scene.surface.kind = scene::SurfaceKind::planet;
+    scene.surface.kind = solid::kKind<solid::Sphere>;
     CHECK_THROWS_WITH_AS(scene::validate(scene, ""), doctest::Contains("sky.model"), scene::SceneError);
     scene = daylight_scene();
     scene.surface.spin_deg_per_s = 1.0;

@@ -11,7 +11,6 @@
 
 using namespace strata;
 using namespace strata::trace_test;
-using scene::SurfaceKind;
 using trace::Hit;
 using trace::HitState;
 using trace::Ray;
@@ -32,7 +31,7 @@ TEST_CASE("smooth planes and spheres are lit wherever they face the sun, down to
     int lit = 0, in_shadow = 0, grazing = 0;
     for (int trial = 0; trial < 20000; ++trial) {
         const bool plane = trial % 2 == 0;
-        scene::Surface surface = surface_of(plane ? SurfaceKind::hyperterrain : SurfaceKind::planet);
+        scene::Surface surface = surface_of(plane ? solid::kKind<solid::DisplacedPlane> : solid::kKind<solid::Sphere>);
         surface.amplitude = 0.0;
         const trace::Field field(surface);
         const trace::FastTracer tracer(field);
@@ -53,7 +52,7 @@ TEST_CASE("smooth planes and spheres are lit wherever they face the sun, down to
         sun = glm::normalize(sun);
         // On a sphere the light turns by delta / radius from the last point outside to the hit, so that the terminator
         // moves by as much.
-        const double turn = plane ? 0.0 : (hit.s - hit.s_outside) / surface.radius;
+        const double turn = plane ? 0.0 : (hit.s - hit.s_outside) / surface.shape<solid::Sphere>().radius;
         if (glm::dot(normal, sun) <= turn) continue;
         ++lit;
         grazing += glm::dot(normal, sun) < 1e-2;
@@ -68,8 +67,8 @@ TEST_CASE("smooth planes and spheres are lit wherever they face the sun, down to
 // what the oracle proves free, or a hundredth of delta where it proves nothing.
 TEST_CASE("on noise surfaces few points are lit or shadowed against the oracle") {
     Random random(62);
-    for (int kind = 0; kind < 4; ++kind) {
-        scene::Surface surface = surface_of(static_cast<SurfaceKind>(kind));
+    for (const solid::KindRow& row : solid::all_solids()) {
+        scene::Surface surface = surface_of(row.kind);
         surface.octaves = 6;
         const trace::Field field(surface);
         const trace::FastTracer tracer(field);
@@ -92,7 +91,7 @@ TEST_CASE("on noise surfaces few points are lit or shadowed against the oracle")
             bool blocked = false;
             for (double s = std::max(span.begin, 0.0); s <= span.end && !blocked;) {
                 const glm::dvec3 p = from + s * sun;
-                if (kind < 2 && p.y > field.amplitude()) break;
+                if (field.base(p) > field.amplitude()) break;
                 const oracle::Probe probe = expected.probe({p.x, p.y, p.z}, direction);
                 blocked = probe.f < 0.0;
                 s += std::max({probe.clear, 0.01 * delta, 1e-9});
@@ -102,8 +101,8 @@ TEST_CASE("on noise surfaces few points are lit or shadowed against the oracle")
             false_shadow += claimed && !blocked;
             false_light += !claimed && blocked;
         }
-        MESSAGE("kind " << kind << ": " << points << " points face the sun, " << shadowed << " in shadow; in shadow "
-                        << "against the oracle " << false_shadow << ", lit against it " << false_light);
+        MESSAGE(row.name << ": " << points << " points face the sun, " << shadowed << " in shadow; in shadow "
+                         << "against the oracle " << false_shadow << ", lit against it " << false_light);
         CHECK(points > 100);
         // What is left are rims and grazing light, where delta itself decides.
         CHECK((false_shadow + false_light) * 100 <= 5 * points);
@@ -111,14 +110,15 @@ TEST_CASE("on noise surfaces few points are lit or shadowed against the oracle")
 }
 
 TEST_CASE("pictures of smooth planes and spheres, near and far, are the same with and without shadows") {
-    for (const SurfaceKind kind : {SurfaceKind::terrain, SurfaceKind::planet, SurfaceKind::isosurface}) {
+    for (const solid::Kind kind :
+         {solid::kKind<solid::HeightField>, solid::kKind<solid::Sphere>, solid::kKind<solid::LevelSet>}) {
         for (const double distance : {3.0, 100.0, 3e4}) {
             scene::Scene scene;
             scene.film = {.width = 60, .height = 40};
             scene.surface.kind = kind;
             scene.surface.amplitude = 0.0;
-            scene.surface.radius = 1.0;
-            scene.surface.threshold = -1.0;
+            scene.surface.shape<solid::Sphere>().radius = 1.0;
+            scene.surface.shape<solid::LevelSet>().threshold = -1.0;
             scene.camera.far = 1e6;
             scene.camera.position = distance * glm::normalize(glm::dvec3(0.1, 0.07, -1.0));
             scene.camera.look_at = glm::dvec3(0.0);
@@ -141,7 +141,7 @@ TEST_CASE("pictures of smooth planes and spheres, near and far, are the same wit
             CHECK(darker == 0);
             CHECK(counters.hits > 400);
             // A convex bound sees the sun wherever it faces it, without a ray.
-            CHECK((counters.shadow_rays > 0) == (kind != SurfaceKind::isosurface));
+            CHECK((counters.shadow_rays > 0) == (kind != solid::kKind<solid::LevelSet>));
         }
     }
 }

@@ -70,9 +70,4 @@ struct Wave {
     }
 };
 
-inline constexpr scene::EstimatorKind kAllEstimators[] = {
-    scene::EstimatorKind::none,     scene::EstimatorKind::super,      scene::EstimatorKind::uniform,
-    scene::EstimatorKind::jittered, scene::EstimatorKind::stratified, scene::EstimatorKind::random,
-    scene::EstimatorKind::sobol,    scene::EstimatorKind::shared,     scene::EstimatorKind::shared_sobol};
-
 }  // namespace strata::render::testing

@@ -7,6 +7,7 @@
 
 #include "src/render/render.h"
 #include "tests/render/image_functions.h"
+#include "tests/support/estimators.h"
 
 using namespace strata;
 using namespace strata::estimate;
@@ -40,7 +41,7 @@ class CancelAfter : public ImageFunction {
 TEST_CASE("a cancelled render has some pixels, each as in the whole render, and zero elsewhere") {
     const auto image = busy();
     const Rect window{0, 0, 160, 140};
-    for (const EstimatorKind kind : kAllEstimators) {
+    for (const EstimatorKind kind : support::kAllEstimators) {
         const bool shared = kind == EstimatorKind::shared || kind == EstimatorKind::shared_sobol;
         const Estimator estimator({kind, shared ? 8 : 4, 4, 1, 1, {0.04, 0.01}});
         const RenderResult whole = render::render(image, estimator, window);

@@ -6,6 +6,7 @@
 
 #include "src/integrate/surface_image.h"
 #include "src/render/render.h"
+#include "tests/support/surfaces.h"
 
 using namespace strata;
 using namespace strata::estimate;
@@ -13,26 +14,15 @@ using namespace strata::film;
 using namespace strata::integrate;
 using namespace strata::render;
 using scene::EstimatorKind;
-using scene::SurfaceKind;
 
 namespace {
 
 constexpr Rect kFrame{0, 0, 48, 70};
 
-scene::Scene small_scene(SurfaceKind kind, EstimatorKind estimator) {
-    scene::Scene scene;
-    scene.film = {.width = kFrame.x1, .height = kFrame.y1};
-    scene.sampling.N = 2;
+scene::Scene small_scene(solid::Kind kind, EstimatorKind estimator) {
+    scene::Scene scene = support::small_scene(kind, kFrame.x1, kFrame.y1);
     scene.sampling.estimator = estimator;
-    scene.surface.kind = kind;
     scene.surface.octaves = 4;
-    scene.surface.bound_size = glm::dvec3(1.5);
-    scene.surface.radius = 2.0;
-    scene.camera.far = 60.0;
-    if (kind == SurfaceKind::planet || kind == SurfaceKind::isosurface) {
-        scene.camera.position = {0.5, 1.0, -6.0};
-        scene.camera.look_at = glm::dvec3(0.0);
-    }
     return scene;
 }
 
@@ -61,13 +51,10 @@ glm::dvec2 own_work(const Counters& counters) {
     return own;
 }
 
-constexpr SurfaceKind kSurfaces[] = {SurfaceKind::terrain, SurfaceKind::hyperterrain, SurfaceKind::planet,
-                                     SurfaceKind::isosurface};
-
 }  // namespace
 
 TEST_CASE("the costs of all pixels are all steps and evaluations of rays, normals and shadows that were counted") {
-    for (const SurfaceKind kind : kSurfaces) {
+    for (const solid::Kind kind : support::all_kinds()) {
         for (const Tracer tracer : {Tracer::fast, Tracer::reference}) {
             const RenderResult result =
                 render_scene(small_scene(kind, EstimatorKind::stratified), kFrame, 2, 16, true, tracer);
@@ -80,7 +67,7 @@ TEST_CASE("the costs of all pixels are all steps and evaluations of rays, normal
 }
 
 TEST_CASE("costs of shared samples are those of a pixel's own cell, whatever the order of the filter") {
-    for (const SurfaceKind kind : kSurfaces) {
+    for (const solid::Kind kind : support::all_kinds()) {
         scene::Scene scene = small_scene(kind, EstimatorKind::shared);
         scene.sampling.m = 1;  // no sample reaches another pixel: no cells beyond the frame
         const RenderResult own = render_scene(scene, kFrame, 1, 32, true);
@@ -97,7 +84,7 @@ TEST_CASE("costs of shared samples are those of a pixel's own cell, whatever the
 TEST_CASE("costs do not depend on threads, tiles and crop, and change no pixel") {
     for (const EstimatorKind estimator :
          {EstimatorKind::none, EstimatorKind::stratified, EstimatorKind::shared_sobol}) {
-        const scene::Scene scene = small_scene(SurfaceKind::hyperterrain, estimator);
+        const scene::Scene scene = small_scene(solid::kKind<solid::DisplacedPlane>, estimator);
         const RenderResult whole = render_scene(scene, kFrame, 1, 32, true);
         const RenderResult plain = render_scene(scene, kFrame, 1, 32, false);
         CHECK(plain.film.costs().empty());

@@ -6,32 +6,22 @@
 
 #include "src/integrate/make_image.h"
 #include "src/render/render.h"
+#include "tests/support/surfaces.h"
 
 using namespace strata;
 using namespace strata::estimate;
 using namespace strata::film;
 using namespace strata::integrate;
 using namespace strata::render;
-using scene::SurfaceKind;
 
 namespace {
 
-constexpr SurfaceKind kKinds[] = {SurfaceKind::terrain, SurfaceKind::hyperterrain, SurfaceKind::planet,
-                                  SurfaceKind::isosurface};
 constexpr Rect kFrame{0, 0, 32, 18};
 
-scene::Scene small_scene(SurfaceKind kind) {
-    scene::Scene scene;
-    scene.film = {.width = 32, .height = 18};
-    scene.sampling = {.estimator = scene::EstimatorKind::stratified, .N = 2};
-    scene.surface.kind = kind;
-    scene.surface.octaves = 5;
-    scene.surface.radius = 1.0;
-    scene.surface.bound_size = glm::dvec3(1.5);
-    scene.camera = {.position = {0.2, 1.1, 0.1}, .look_at = {0.3, 0.8, 1.0}, .far = 60.0};
-    if (kind == SurfaceKind::planet || kind == SurfaceKind::isosurface) {
-        scene.camera = {.position = {0.5, 1.0, -6.0}, .look_at = glm::dvec3(0.0), .far = 60.0};
-    }
+scene::Scene small_scene(solid::Kind kind) {
+    scene::Scene scene = support::small_scene(kind, kFrame.x1, kFrame.y1);
+    scene.sampling.estimator = scene::EstimatorKind::stratified;
+    scene.surface.shape<solid::Sphere>().radius = 1.0;
     return scene;
 }
 
@@ -74,7 +64,7 @@ SampleSet samples_of(const scene::Scene& scene) {
 }  // namespace
 
 TEST_CASE("an open shutter over a scene at rest draws no times and costs what an instant does") {
-    for (const SurfaceKind kind : kKinds) {
+    for (const solid::Kind kind : support::all_kinds()) {
         scene::Scene still = small_scene(kind), open = still;
         open.shutter.open_s = 0.03;
         open.sampling.time_order = 4;
@@ -88,7 +78,7 @@ TEST_CASE("an open shutter over a scene at rest draws no times and costs what an
 }
 
 TEST_CASE("camera keys at rest cost what a camera without keys does") {
-    for (const SurfaceKind kind : kKinds) {
+    for (const solid::Kind kind : support::all_kinds()) {
         scene::Scene still = small_scene(kind), keyed = still;
         const scene::Camera& camera = still.camera;
         keyed.camera.keys = {{.time_s = 0.0, .position = camera.position, .look_at = camera.look_at},
@@ -104,7 +94,7 @@ TEST_CASE("camera keys at rest cost what a camera without keys does") {
 }
 
 TEST_CASE("a spin and a drift cost no evaluations at an instant, nor does a rate of zero at any time") {
-    for (const SurfaceKind kind : kKinds) {
+    for (const solid::Kind kind : support::all_kinds()) {
         const scene::Scene still = small_scene(kind);
         scene::Scene spinning = still;
         spinning.surface.spin_deg_per_s = 40.0;  // at t = 0
@@ -121,7 +111,7 @@ TEST_CASE("a spin and a drift cost no evaluations at an instant, nor does a rate
 }
 
 TEST_CASE("a height field's noise has two dimensions: a drift along the third changes and costs nothing") {
-    scene::Scene still = small_scene(SurfaceKind::terrain), drifting = still;
+    scene::Scene still = small_scene(solid::kKind<solid::HeightField>), drifting = still;
     drifting.surface.drift = {0.0, 5.0, 0.0};
     drifting.shutter = {.fps = 25.0, .open_s = 0.03, .frame = 0};
     check_same_render(drifting, still);
@@ -129,7 +119,7 @@ TEST_CASE("a height field's noise has two dimensions: a drift along the third ch
 }
 
 TEST_CASE("without shadows the noise is evaluated for camera rays and the normals of their hits alone") {
-    for (const SurfaceKind kind : kKinds) {
+    for (const solid::Kind kind : support::all_kinds()) {
         for (int way = 0; way < 3; ++way) {
             scene::Scene scene = small_scene(kind);
             if (way == 0) scene.sun.shadows = false;
@@ -173,7 +163,7 @@ TEST_CASE("without shadows the noise is evaluated for camera rays and the normal
 }
 
 TEST_CASE("haze casts no rays and evaluates no noise") {
-    for (const SurfaceKind kind : kKinds) {
+    for (const solid::Kind kind : support::all_kinds()) {
         scene::Scene clear = small_scene(kind), hazy = clear;
         hazy.sky.haze_distance = 20.0;
         check_same_counts(render_scene(hazy).counters, render_scene(clear).counters);
@@ -184,7 +174,7 @@ TEST_CASE("haze casts no rays and evaluates no noise") {
 }
 
 TEST_CASE("octaves below the last bit of a double are not evaluated") {
-    scene::Scene five = small_scene(SurfaceKind::hyperterrain);
+    scene::Scene five = small_scene(solid::kKind<solid::DisplacedPlane>);
     five.surface.gain = 1e-5;
     five.surface.octaves = 5;
     scene::Scene more = five;
@@ -195,7 +185,7 @@ TEST_CASE("octaves below the last bit of a double are not evaluated") {
 TEST_CASE("patterns cast no rays at surfaces; none takes one sample a pixel") {
     for (const scene::ImageKind kind :
          {scene::ImageKind::zoneplate, scene::ImageKind::checker, scene::ImageKind::wheel}) {
-        scene::Scene scene = small_scene(SurfaceKind::terrain);
+        scene::Scene scene = small_scene(solid::kKind<solid::HeightField>);
         scene.image = kind;
         const Counters counters = render_scene(scene).counters;
         CHECK(counters.rays == 32 * 18 * 4);
@@ -203,15 +193,15 @@ TEST_CASE("patterns cast no rays at surfaces; none takes one sample a pixel") {
                   counters.steps ==
               0);
     }
-    scene::Scene scene = small_scene(SurfaceKind::terrain);
+    scene::Scene scene = small_scene(solid::kKind<solid::HeightField>);
     scene.sampling.estimator = scene::EstimatorKind::none;
     CHECK(render_scene(scene).counters.rays == 32 * 18);
 }
 
 TEST_CASE("an estimator holds only the tables it uses") {
-    for (int kind = 0; kind < 9; ++kind) {
+    for (const scene::EstimatorRow& row : scene::all_estimators()) {
         scene::Scene scene;
-        scene.sampling.estimator = static_cast<scene::EstimatorKind>(kind);
+        scene.sampling.estimator = row.kind;
         const Estimator estimator(estimator_settings(scene));
         using enum scene::EstimatorKind;
         const auto is = [&](auto... names) { return ((scene.sampling.estimator == names) || ...); };

@@ -7,34 +7,24 @@
 
 #include "src/integrate/make_image.h"
 #include "src/render/render.h"
+#include "tests/support/surfaces.h"
 
 using namespace strata;
 using namespace strata::estimate;
 using namespace strata::film;
 using namespace strata::integrate;
 using namespace strata::render;
-using scene::SurfaceKind;
 
 namespace {
 
 constexpr int kWidth = 24, kHeight = 14;
 constexpr double kPixels = kWidth * kHeight;
 
-scene::Scene base_scene(SurfaceKind kind) {
-    scene::Scene scene;
-    scene.film = {.width = kWidth, .height = kHeight};
-    scene.sampling.estimator = scene::EstimatorKind::random;
-    scene.sampling.m = 1;
-    scene.surface.kind = kind;
+scene::Scene base_scene(solid::Kind kind) {
+    scene::Scene scene = support::small_scene(kind, kWidth, kHeight);
+    scene.sampling = {.estimator = scene::EstimatorKind::random, .m = 1};
     scene.surface.octaves = 4;
-    scene.surface.bound_size = glm::dvec3(1.5);
-    scene.camera.far = 60.0;
     scene.sky.haze_distance = 20.0;
-    scene.camera.look_at = {0.3, 0.8, 1.0};
-    if (kind == SurfaceKind::isosurface) {
-        scene.camera.position = {0.5, 1.0, -6.0};
-        scene.camera.look_at = glm::dvec3(0.0);
-    }
     return scene;
 }
 
@@ -132,23 +122,23 @@ void check_blur(scene::Scene scene) {
 }  // namespace
 
 TEST_CASE("a camera pan through an open shutter is the average of its instants") {
-    check_blur(with_pan(base_scene(SurfaceKind::hyperterrain), 0.4));
-    check_blur(with_pan(base_scene(SurfaceKind::isosurface), 0.4));
+    check_blur(with_pan(base_scene(solid::kKind<solid::DisplacedPlane>), 0.4));
+    check_blur(with_pan(base_scene(solid::kKind<solid::LevelSet>), 0.4));
 }
 
 TEST_CASE("noise that drifts through an open shutter, spinning and seen by a moving camera, averages its instants") {
-    scene::Scene scene = with_pan(base_scene(SurfaceKind::isosurface), 0.4);
+    scene::Scene scene = with_pan(base_scene(solid::kKind<solid::LevelSet>), 0.4);
     scene.surface.drift = {0.8, 0.3, -0.5};
     scene.surface.spin_deg_per_s = 60.0;
     check_blur(scene);
-    scene = base_scene(SurfaceKind::terrain);
+    scene = base_scene(solid::kKind<solid::HeightField>);
     scene.surface.drift = {0.5, 0.0, 1.5};
     check_blur(scene);
 }
 
 TEST_CASE("with the shutter an instant, a camera on keys is a still camera, to the bit") {
     for (const auto interpolation : {scene::Interpolation::smooth, scene::Interpolation::linear}) {
-        scene::Scene moving = with_pan(base_scene(SurfaceKind::hyperterrain), 0.4);
+        scene::Scene moving = with_pan(base_scene(solid::kKind<solid::DisplacedPlane>), 0.4);
         moving.camera.interpolation = interpolation;
         moving.shutter = {.fps = 25.0, .open_s = 0.0, .frame = 5};
         // A key in the middle, at 0.2 s, is frame 5.
@@ -165,7 +155,7 @@ TEST_CASE("with the shutter an instant, a camera on keys is a still camera, to t
 }
 
 TEST_CASE("terrain that drifts along its plane is the same terrain seen from a place drifted the other way") {
-    for (const SurfaceKind kind : {SurfaceKind::terrain, SurfaceKind::hyperterrain}) {
+    for (const solid::Kind kind : {solid::kKind<solid::HeightField>, solid::kKind<solid::DisplacedPlane>}) {
         scene::Scene scene = base_scene(kind);
         scene.shutter = {.fps = 25.0, .open_s = 0.0, .frame = 50};  // 2 s
         scene::Scene elsewhere = scene;
@@ -184,12 +174,12 @@ TEST_CASE("terrain that drifts along its plane is the same terrain seen from a p
 }
 
 TEST_CASE("an isosurface whose noise drifts morphs within its bound") {
-    scene::Scene scene = base_scene(SurfaceKind::isosurface);
-    scene.surface.threshold = -10.0;  // solid throughout: the ball itself
+    scene::Scene scene = base_scene(solid::kKind<solid::LevelSet>);
+    scene.surface.shape<solid::LevelSet>().threshold = -10.0;  // solid throughout: the ball itself
     scene.surface.drift = {0.0, 0.5, 0.0};
     scene.sampling.seed = 3;
     const auto silhouette = [&](double threshold, int frame) {
-        scene.surface.threshold = threshold;
+        scene.surface.shape<solid::LevelSet>().threshold = threshold;
         scene.shutter = {.fps = 25.0, .open_s = 0.0, .frame = frame};
         scene.sampling.estimator = scene::EstimatorKind::none;  // the same rays at any time
         return render_scene(scene);

@@ -10,6 +10,7 @@
 
 #include "src/sample/counter_hash.h"
 #include "tests/render/image_functions.h"
+#include "tests/support/estimators.h"
 
 using namespace strata;
 using namespace strata::estimate;
@@ -22,9 +23,9 @@ using scene::EstimatorKind;
 
 namespace {
 
-constexpr EstimatorKind kRandomised[] = {EstimatorKind::jittered, EstimatorKind::stratified,
-                                         EstimatorKind::random,   EstimatorKind::sobol,
-                                         EstimatorKind::shared,   EstimatorKind::shared_sobol};
+// Those whose passes differ.
+const std::vector<EstimatorKind> kRandomised =
+    support::estimators_where([](const scene::EstimatorRow& row) { return !row.is_grid(); });
 
 EstimatorSettings settings(EstimatorKind kind, int N = 2, std::uint64_t seed = 1) {
     return {kind, N, 4, 1, seed, {0.04, 0.01}};
@@ -68,7 +69,7 @@ double rmse(const Film& film, const Film& truth) {
 TEST_CASE("one pass is the plain render, and so is pass 0 of any seed") {
     const auto image = busy();
     const Rect window{-3, 2, 14, 9};
-    for (const EstimatorKind kind : kAllEstimators) {
+    for (const EstimatorKind kind : support::kAllEstimators) {
         const ProgressiveResult one = progressive(image, settings(kind), window, {});
         CHECK(one.passes == 1);
         CHECK(!one.error);
@@ -163,7 +164,7 @@ TEST_CASE("an error that is no number ends the wait for a target") {
 
 TEST_CASE("passes that would all be alike are refused") {
     const auto image = busy();
-    for (const EstimatorKind kind : {EstimatorKind::none, EstimatorKind::super, EstimatorKind::uniform}) {
+    for (const EstimatorKind kind : support::estimators_where(&scene::EstimatorRow::is_grid)) {
         CHECK_THROWS_AS(progressive(image, settings(kind), {0, 0, 2, 2}, {.passes = 2}), std::invalid_argument);
     }
     CHECK_THROWS_AS(progressive(image, settings(EstimatorKind::sobol), {0, 0, 2, 2}, {.passes = 0}),

@@ -10,6 +10,7 @@
 #include "src/filter/bspline.h"
 #include "src/render/render.h"
 #include "tests/render/image_functions.h"
+#include "tests/support/estimators.h"
 
 using namespace strata;
 using namespace strata::estimate;
@@ -52,7 +53,7 @@ constexpr Rect kFrame{0, 0, 70, 41};
 TEST_CASE("the bits of a picture depend neither on threads, nor on tile size, nor on the crop window") {
     const auto image = busy();
     const std::array<Rect, 5> crops{{{0, 0, 70, 41}, {3, 5, 4, 6}, {31, 7, 69, 40}, {0, 40, 70, 41}, {69, 0, 70, 41}}};
-    for (const EstimatorKind kind : kAllEstimators) {
+    for (const EstimatorKind kind : support::kAllEstimators) {
         for (const int m : {1, 4, 5}) {
             for (const int N : {1, 3, 4}) {
                 const EstimatorSettings estimator = settings(kind, N, m);
@@ -89,7 +90,7 @@ TEST_CASE("many samples a pixel: pictures that take several batches and buffers 
 TEST_CASE("a constant picture is exact under every estimator") {
     const glm::vec3 value(0.1f, 7.3e-5f, 12345.678f);
     const auto image = constant(value);
-    for (const EstimatorKind kind : kAllEstimators) {
+    for (const EstimatorKind kind : support::kAllEstimators) {
         for (const int m : {1, 2, 4, 7, 100}) {
             for (const int N : {1, 2, 3, 8}) {
                 if (m == 100 && N == 8) continue;
@@ -103,7 +104,7 @@ TEST_CASE("a constant picture is exact under every estimator") {
 TEST_CASE("a pixel is the weighted sum of its probed samples") {
     const auto image = busy();
     double worst = 0;
-    for (const EstimatorKind kind : kAllEstimators) {
+    for (const EstimatorKind kind : support::kAllEstimators) {
         for (const int m : {1, 4, 5}) {
             const Estimator estimator(settings(kind, 3, m));
             const Rect window{20, 10, 24, 13};
@@ -132,7 +133,7 @@ TEST_CASE("a pixel is the weighted sum of its probed samples") {
 TEST_CASE("shared samples are weighted by n_m at the pixel, cell by cell") {
     const auto image = busy();
     double worst = 0;
-    for (const EstimatorKind kind : {EstimatorKind::shared, EstimatorKind::shared_sobol}) {
+    for (const EstimatorKind kind : support::estimators_where(&scene::EstimatorRow::is_shared)) {
         for (const int m : {1, 2, 3, 4, 5, 9}) {
             const Estimator estimator(settings(kind, 2, m));
             const Rect window{12, 7, 15, 9};
@@ -167,12 +168,12 @@ TEST_CASE("shared samples are weighted by n_m at the pixel, cell by cell") {
 
 TEST_CASE("every cell or pixel is sampled exactly once") {
     const auto image = constant(glm::vec3(1));
-    for (const EstimatorKind kind : kAllEstimators) {
+    for (const EstimatorKind kind : support::kAllEstimators) {
         for (const int m : {1, 4, 5}) {
             const RenderResult result = render_with(image, settings(kind, 3, m), {4, 4, 37, 25}, 3, 8);
-            const bool shared = kind == EstimatorKind::shared || kind == EstimatorKind::shared_sobol;
+            const bool shared = scene::row_of(kind).is_shared();
             const std::uint64_t margin = shared ? 2 * static_cast<std::uint64_t>(m / 2) : 0;
-            const std::uint64_t n = kind == EstimatorKind::none ? 1 : 9;
+            const std::uint64_t n = scene::row_of(kind).is_single ? 1 : 9;
             CHECK(result.counters.rays == n * (33 + margin) * (21 + margin));
         }
     }
@@ -180,7 +181,7 @@ TEST_CASE("every cell or pixel is sampled exactly once") {
 
 TEST_CASE("extreme shapes and orders render completely and without NaN") {
     const auto image = busy();
-    for (const EstimatorKind kind : kAllEstimators) {
+    for (const EstimatorKind kind : support::kAllEstimators) {
         for (const Rect& window : {Rect{0, 0, 1, 1}, Rect{0, 0, 1, 2000}, Rect{0, 0, 2000, 1}}) {
             const RenderResult result = render_with(image, settings(kind, 1, 4), window);
             REQUIRE(result.film.complete());

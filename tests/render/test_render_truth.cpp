@@ -5,6 +5,7 @@
 
 #include "src/render/render.h"
 #include "tests/render/image_functions.h"
+#include "tests/support/estimators.h"
 
 using namespace strata;
 using namespace strata::estimate;
@@ -92,7 +93,7 @@ TEST_CASE("super-sampling approaches the box filter whatever the order") {
 TEST_CASE("a ramp is reproduced: exactly by symmetric grids, within its statistics by the others") {
     const auto image = ramp();
     const int side = 24;
-    for (const EstimatorKind kind : kAllEstimators) {
+    for (const EstimatorKind kind : support::kAllEstimators) {
         for (const int m : {1, 4, 5}) {
             const int N = 4;
             const RenderResult result =

@@ -12,33 +12,22 @@
 
 #include "src/integrate/make_image.h"
 #include "src/render/render.h"
+#include "tests/support/surfaces.h"
 
 using namespace strata;
 using namespace strata::estimate;
 using namespace strata::film;
 using namespace strata::integrate;
 using namespace strata::render;
-using scene::SurfaceKind;
 
 namespace {
 
 constexpr int kWidth = 48, kHeight = 27;
 
-scene::Scene small_scene(SurfaceKind kind) {
-    scene::Scene scene;
-    scene.film = {.width = kWidth, .height = kHeight};
+scene::Scene small_scene(solid::Kind kind) {
+    scene::Scene scene = support::small_scene(kind, kWidth, kHeight);
     scene.sampling.estimator = scene::EstimatorKind::stratified;
-    scene.sampling.N = 2;
-    scene.surface.kind = kind;
     scene.surface.octaves = 6;
-    scene.surface.bound_size = glm::dvec3(1.5);
-    scene.surface.radius = 2.0;
-    scene.camera.far = 60.0;
-    scene.camera.look_at = {0.3, 0.8, 1.0};
-    if (kind == SurfaceKind::planet || kind == SurfaceKind::isosurface) {
-        scene.camera.position = {0.5, 1.0, -6.0};
-        scene.camera.look_at = glm::dvec3(0.0);
-    }
     return scene;
 }
 
@@ -67,13 +56,10 @@ Difference difference(const Film& a, const Film& b) {
     return result;
 }
 
-constexpr SurfaceKind kKinds[] = {SurfaceKind::terrain, SurfaceKind::hyperterrain, SurfaceKind::planet,
-                                  SurfaceKind::isosurface};
-
 }  // namespace
 
 TEST_CASE("N * N rays a pixel, and shadow rays only where there is a sun that casts shadows") {
-    for (const SurfaceKind kind : kKinds) {
+    for (const solid::Kind kind : support::all_kinds()) {
         scene::Scene scene = small_scene(kind);
         const RenderResult shadowed = render_scene(scene);
         CHECK(shadowed.counters.rays == 4u * kWidth * kHeight);
@@ -98,7 +84,7 @@ TEST_CASE("N * N rays a pixel, and shadow rays only where there is a sun that ca
 }
 
 TEST_CASE("a closed shutter shows a spinning planet as the still of its frame's time, an open one blurs it") {
-    scene::Scene moving = small_scene(SurfaceKind::planet);
+    scene::Scene moving = small_scene(solid::kKind<solid::Sphere>);
     moving.surface.spin_deg_per_s = 90.0;
     moving.surface.amplitude = 0.3;
     moving.shutter = {.fps = 2.0, .open_s = 0.0, .frame = 6};  // 3 s: 270 degrees
@@ -120,7 +106,7 @@ TEST_CASE("a closed shutter shows a spinning planet as the still of its frame's 
 }
 
 TEST_CASE("the reference tracer gives the same picture but for silhouettes") {
-    for (const SurfaceKind kind : kKinds) {
+    for (const solid::Kind kind : support::all_kinds()) {
         scene::Scene scene = small_scene(kind);
         scene.film = {.width = 24, .height = 14};
         scene.surface.octaves = 3;
@@ -140,7 +126,7 @@ namespace {
 
 // Bounds of the difference from one picture to the same one carried elsewhere: single samples at silhouettes and shadow
 // edges may fall on the other side.
-void check_same_picture(const std::string& what, SurfaceKind kind, const Film& expected, const scene::Scene& moved) {
+void check_same_picture(const std::string& what, solid::Kind kind, const Film& expected, const scene::Scene& moved) {
     const Difference apart = difference(expected, render_scene(moved).film);
     MESSAGE("kind " << static_cast<int>(kind) << ", " << what << ": mean difference " << apart.mean << ", largest "
                     << apart.max);
@@ -181,7 +167,7 @@ scene::Scene moved_by(scene::Scene scene, const glm::dvec3& offset) {
 }  // namespace
 
 TEST_CASE("surface and camera moved together: the same picture, to the bit by whole numbers") {
-    for (const SurfaceKind kind : kKinds) {
+    for (const solid::Kind kind : support::all_kinds()) {
         const scene::Scene scene = small_scene(kind);
         // On a coarse grid, so that whole offsets add without rounding.
         scene::Scene grid = scene;
@@ -196,7 +182,7 @@ TEST_CASE("surface and camera moved together: the same picture, to the bit by wh
 }
 
 TEST_CASE("surface, camera and distances scaled together: the same picture, to the bit by powers of two") {
-    for (const SurfaceKind kind : kKinds) {
+    for (const solid::Kind kind : support::all_kinds()) {
         const scene::Scene scene = small_scene(kind);
         const Film expected = render_scene(scene).film;
         for (const double scale : {0x1p-20, 0.5, 64.0, 0x1p20, 3.7, 1e-5}) {
@@ -215,7 +201,7 @@ TEST_CASE("surface, camera and distances scaled together: the same picture, to t
 }
 
 TEST_CASE("surface, camera and sun turned together: the same picture") {
-    for (const SurfaceKind kind : kKinds) {
+    for (const solid::Kind kind : support::all_kinds()) {
         const scene::Scene scene = small_scene(kind);
         const Film expected = render_scene(scene).film;
         for (const double degrees : {90.0, 17.0}) {

@@ -8,6 +8,7 @@
 
 #include "src/integrate/surface_image.h"
 #include "src/render/render.h"
+#include "tests/support/surfaces.h"
 
 using namespace strata;
 using namespace strata::estimate;
@@ -15,31 +16,21 @@ using namespace strata::film;
 using namespace strata::integrate;
 using namespace strata::render;
 using scene::EstimatorKind;
-using scene::SurfaceKind;
 
 namespace {
 
 constexpr Rect kFrame{0, 0, 64, 36};
 
-scene::Scene small_scene(SurfaceKind kind) {
-    scene::Scene scene;
-    scene.film = {.width = 64, .height = 36};
-    scene.sampling.N = 2;
-    scene.surface.kind = kind;
-    scene.surface.octaves = 5;
-    scene.surface.bound_size = glm::dvec3(1.5);
-    scene.surface.radius = 2.0;
-    scene.camera.far = 60.0;
+scene::Scene small_scene(solid::Kind kind) {
+    scene::Scene scene = support::small_scene(kind, kFrame.x1, kFrame.y1);
     scene.sky.haze_distance = 30.0;
-    if (kind == SurfaceKind::planet || kind == SurfaceKind::isosurface) {
-        scene.camera.position = {0.5, 1.0, -6.0};
-        scene.camera.look_at = glm::dvec3(0.0);
+    if (support::is_bounded(scene.surface)) {
         scene.surface.spin_deg_per_s = 50.0;
         scene.shutter.open_s = 0.05;
     }
     // Everything that can move does, somewhere.
-    if (kind != SurfaceKind::terrain) scene.surface.drift = {0.3, -0.2, 0.5};
-    if (kind == SurfaceKind::hyperterrain || kind == SurfaceKind::isosurface) {
+    if (kind != solid::kKind<solid::HeightField>) scene.surface.drift = {0.3, -0.2, 0.5};
+    if (kind == solid::kKind<solid::DisplacedPlane> || kind == solid::kKind<solid::LevelSet>) {
         scene.shutter.open_s = 0.05;
         const glm::dvec3 from = scene.camera.position, to = scene.camera.look_at;
         scene.camera.keys = {{.time_s = -0.1, .position = from, .look_at = to, .fov_deg = 40.0},
@@ -105,7 +96,7 @@ Samples random_samples(std::mt19937_64& random, std::size_t count) {
 TEST_CASE("a surface's picture and its work are the same for any threads, tiles and crops, shadows on") {
     constexpr std::array<Rect, 4> kCrops{{{0, 0, 64, 36}, {5, 3, 38, 22}, {63, 0, 64, 36}, {30, 17, 31, 18}}};
 
-    for (const SurfaceKind kind : {SurfaceKind::terrain, SurfaceKind::isosurface}) {
+    for (const solid::Kind kind : {solid::kKind<solid::HeightField>, solid::kKind<solid::LevelSet>}) {
         for (const EstimatorKind estimator : {EstimatorKind::none, EstimatorKind::stratified, EstimatorKind::shared}) {
             scene::Scene scene = small_scene(kind);
             scene.sampling.estimator = estimator;
@@ -140,8 +131,7 @@ TEST_CASE("a surface's picture and its work are the same for any threads, tiles 
 
 TEST_CASE("a sample's radiance and work do not depend on the rest of its batch") {
     std::mt19937_64 random(3);
-    for (const SurfaceKind kind :
-         {SurfaceKind::terrain, SurfaceKind::hyperterrain, SurfaceKind::planet, SurfaceKind::isosurface}) {
+    for (const solid::Kind kind : support::all_kinds()) {
         for (const Tracer tracer : {Tracer::fast, Tracer::reference}) {
             scene::Scene scene = small_scene(kind);
             if (tracer == Tracer::reference) scene.surface.octaves = 2;

@@ -9,6 +9,7 @@
 #include "src/integrate/make_image.h"
 #include "src/render/render.h"
 #include "src/scene/validate.h"
+#include "tests/support/surfaces.h"
 
 using namespace strata;
 using namespace strata::estimate;
@@ -16,31 +17,19 @@ using namespace strata::film;
 using namespace strata::integrate;
 using namespace strata::render;
 using scene::Scene;
-using scene::SurfaceKind;
 
 namespace {
 
 constexpr int kSide = 12;
 
-Scene small_scene(SurfaceKind kind) {
-    Scene scene;
-    scene.film = {.width = kSide, .height = kSide};
+Scene small_scene(solid::Kind kind) {
+    Scene scene = support::small_scene(kind, kSide, kSide);
     scene.sampling.N = 1;
-    scene.surface.kind = kind;
     scene.surface.octaves = 6;
-    scene.surface.radius = 2.0;
     scene.camera.far = 50.0;
     scene.sky.haze_distance = 40.0;
-    scene.camera.look_at = {0.2, 0.6, 1.0};
-    if (kind == SurfaceKind::planet || kind == SurfaceKind::isosurface) {
-        scene.camera.position = {0.5, 1.0, -6.0};
-        scene.camera.look_at = glm::dvec3(0.0);
-    }
     return scene;
 }
-
-constexpr SurfaceKind kKinds[] = {SurfaceKind::terrain, SurfaceKind::hyperterrain, SurfaceKind::planet,
-                                  SurfaceKind::isosurface};
 
 struct Extreme {
     std::string name;
@@ -77,7 +66,7 @@ void render_into(const Scene& scene, Outcome& outcome) {
 }
 
 void check(const Extreme& extreme) {
-    for (const SurfaceKind kind : kKinds) {
+    for (const solid::Kind kind : support::all_kinds()) {
         Scene scene = small_scene(kind);
         extreme.set(scene);
         Outcome outcome;
@@ -219,7 +208,7 @@ TEST_CASE("suns at their extremes give finite pictures") {
 
 TEST_CASE("a plane far away is hit where it should be: its haze and horizon are those of algebra") {
     // A level plane seen from 1e7 above: every pixel below the horizon hits, none above.
-    Scene scene = small_scene(SurfaceKind::terrain);
+    Scene scene = small_scene(solid::kKind<solid::HeightField>);
     scene.surface.amplitude = 0.0;
     scene.camera.far = 1e12;
     look_from(scene, {0.0, 1e7, 0.0}, {0.0, 0.0, 1.0});

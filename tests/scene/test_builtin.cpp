@@ -62,9 +62,9 @@ TEST_CASE("every built-in scene is valid, titled on one line, and prints and rea
 }
 
 TEST_CASE("the scenes of a kind of surface or picture are named after it") {
-    CHECK(scene_named("terrain").surface.kind == SurfaceKind::terrain);
-    CHECK(scene_named("planet").surface.kind == SurfaceKind::planet);
-    CHECK(scene_named("isosurface").surface.kind == SurfaceKind::isosurface);
+    CHECK(scene_named("terrain").surface.kind == solid::kKind<solid::HeightField>);
+    CHECK(scene_named("planet").surface.kind == solid::kKind<solid::Sphere>);
+    CHECK(scene_named("isosurface").surface.kind == solid::kKind<solid::LevelSet>);
     CHECK(scene_named("zoneplate").image == ImageKind::zoneplate);
     CHECK(scene_named("checker").image == ImageKind::checker);
     CHECK(scene_named("wheel").image == ImageKind::wheel);
@@ -86,7 +86,7 @@ TEST_CASE("the default scene is a still of at least 1280 by 720 by the default e
 
 TEST_CASE("the benchmark scene stays as it was fixed") {
     const Scene scene = scene_named("hyperterrain");
-    CHECK(scene.surface.kind == SurfaceKind::hyperterrain);
+    CHECK(scene.surface.kind == solid::kKind<solid::DisplacedPlane>);
     CHECK(scene.surface.octaves == 8);
     CHECK(scene.surface.amplitude == 0.6);
     CHECK(scene.surface.frequency == 0.5);

@@ -56,11 +56,12 @@ TEST_CASE("each kind of motion needs time samples, unless the shutter or the est
 TEST_CASE("a drift counts where the noise depends on it") {
     Surface surface;
     surface.drift = {0.0, 1.0, 0.0};
-    for (const SurfaceKind kind : {SurfaceKind::hyperterrain, SurfaceKind::planet, SurfaceKind::isosurface}) {
+    for (const solid::Kind kind :
+         {solid::kKind<solid::DisplacedPlane>, solid::kKind<solid::Sphere>, solid::kKind<solid::LevelSet>}) {
         surface.kind = kind;
         CHECK(noise_drifts(surface));
     }
-    surface.kind = SurfaceKind::terrain;
+    surface.kind = solid::kKind<solid::HeightField>;
     CHECK(!noise_drifts(surface));
     surface.drift.x = 1e-300;
     CHECK(noise_drifts(surface));

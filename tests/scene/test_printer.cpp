@@ -118,10 +118,10 @@ TEST_CASE("only keys that matter to the picture are printed, unless they were ch
     for (const char* line : {"[wheel]", "[zoneplate]", "[checker]", "radius = ", "threshold = ", "bound"}) {
         CHECK(!holds_line(terrain, line));
     }
-    scene.surface.kind = SurfaceKind::planet;
+    scene.surface.kind = solid::kKind<solid::Sphere>;
     CHECK(holds_line(print_scene(scene), "radius = "));
     CHECK(!holds_line(print_scene(scene), "bound = "));
-    scene.surface.kind = SurfaceKind::isosurface;
+    scene.surface.kind = solid::kKind<solid::LevelSet>;
     CHECK(holds_line(print_scene(scene), "bound_size = "));
     CHECK(!holds_line(print_scene(scene), "radius = "));
 
@@ -132,6 +132,6 @@ TEST_CASE("only keys that matter to the picture are printed, unless they were ch
         CHECK(holds_line(printed, line));
     }
     for (const char* line : {"[camera]", "[surface]", "[sun]", "tolerance = "}) CHECK(!holds_line(printed, line));
-    wheel.surface.radius = 3.0;
+    wheel.surface.shape<solid::Sphere>().radius = 3.0;
     CHECK(holds_line(print_scene(wheel), "radius = 3.0 "));
 }

@@ -91,9 +91,9 @@ TEST_CASE("enumerators and names convert both ways, and other names are refused"
     CHECK(name_of(EstimatorKind::none) == "none");
     CHECK(name_of(EstimatorKind::stratified) == "stratified");
     CHECK(name_of(EstimatorKind::shared_sobol) == "shared-sobol");
-    CHECK(name_of(SurfaceKind::isosurface) == "isosurface");
+    CHECK(scene::name_of(solid::kKind<solid::LevelSet>) == "isosurface");
     CHECK(name_of(ImageKind::wheel) == "wheel");
-    CHECK(name_of(BoundKind::box) == "box");
+    CHECK(scene::name_of(solid::LevelSet::Bound::box) == "box");
     CHECK(!from_name<EstimatorKind>("shared_sobol"));
     CHECK(!from_name<ImageKind>(""));
 }

@@ -52,7 +52,7 @@ TEST_CASE("a file sets what it names and leaves the rest at the defaults") {
     CHECK(scene.camera.fov_deg == 35.0);
     CHECK(scene.camera.position == glm::dvec3(1.0, -2.5, 300.0));
     CHECK(scene.camera.far == Camera{}.far);
-    CHECK(scene.surface.kind == SurfaceKind::planet);
+    CHECK(scene.surface.kind == solid::kKind<solid::Sphere>);
     CHECK(scene.surface.seed == 255);
     CHECK(scene.surface.octaves == Surface{}.octaves);
     CHECK(!scene.sun.shadows);

@@ -90,13 +90,13 @@ TEST_CASE("reach is what the camera's rays see, in surface units") {
     scene.surface.origin = {3.0, 0.0, 0.0};
     scene.surface.scale = 0.5;
     CHECK(reach(scene) == doctest::Approx(28.0));
-    scene.surface.kind = SurfaceKind::planet;
-    scene.surface.radius = 7.0;
+    scene.surface.kind = solid::kKind<solid::Sphere>;
+    scene.surface.shape<solid::Sphere>().radius = 7.0;
     CHECK(reach(scene) == doctest::Approx(35.0));
-    scene.surface.kind = SurfaceKind::isosurface;
-    scene.surface.bound_size = {2.0, 3.0, 6.0};
+    scene.surface.kind = solid::kKind<solid::LevelSet>;
+    scene.surface.shape<solid::LevelSet>().bound_size = {2.0, 3.0, 6.0};
     CHECK(reach(scene) == doctest::Approx(2.0));
-    scene.surface.bound = BoundKind::box;
+    scene.surface.shape<solid::LevelSet>().bound = solid::LevelSet::Bound::box;
     CHECK(reach(scene) == doctest::Approx(7.0));
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("a camera far away is valid, and an isosurface does not mind how far")
     CHECK(error_of(scene) == "");
     scene.surface.octaves = 32;
     CHECK(error_of(scene) != "");
-    scene.surface.kind = SurfaceKind::isosurface;
+    scene.surface.kind = solid::kKind<solid::LevelSet>;
     CHECK(error_of(scene) == "");
 }
 

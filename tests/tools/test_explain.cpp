@@ -10,6 +10,7 @@
 #include "src/scene/builtin.h"
 #include "src/scene/toml_reader.h"
 #include "src/scene/validate.h"
+#include "tests/support/estimators.h"
 #include "tools/explain/explanation.h"
 #include "tools/explain/pilot.h"
 
@@ -106,11 +107,11 @@ TEST_CASE("counts are predicted within a factor of 1.5 where many samples of a p
 TEST_CASE("counts are predicted within a factor of 1.5 for every estimator, for a crop and for the reference tracer") {
     scene::Scene scene = small_builtin(*scene::find_builtin("terrain"));
     scene.surface.octaves = 6;
-    for (int kind = 0; kind < 9; ++kind) {
-        scene.sampling.estimator = static_cast<scene::EstimatorKind>(kind);
-        scene.sampling.m = 1 + kind;
+    for (const scene::EstimatorRow& row : scene::all_estimators()) {
+        scene.sampling.estimator = row.kind;
+        scene.sampling.m = 1 + static_cast<int>(row.kind);
         const Worst worst = worst_prediction(scene, whole(scene), integrate::Tracer::fast);
-        MESSAGE("estimator " << kind << ": off by " << worst.factor << " (" << worst.name << ")");
+        MESSAGE(row.name << ": off by " << worst.factor << " (" << worst.name << ")");
         CHECK(worst.factor < 1.5);
     }
     scene.sampling.N = 5;
@@ -187,7 +188,7 @@ TEST_CASE("the plan names what is left out, and the counts agree") {
         const auto coin = [&] { return random() % 2 == 0; };
         scene.film = {.width = 16, .height = 9};
         scene.camera.far = 20.0;
-        scene.surface.kind = coin() ? scene::SurfaceKind::terrain : scene::SurfaceKind::hyperterrain;
+        scene.surface.kind = coin() ? solid::kKind<solid::HeightField> : solid::kKind<solid::DisplacedPlane>;
         scene.surface.octaves = 3;
         scene.sun.shadows = coin();
         if (coin()) scene.sun.colour = glm::dvec3(0.0);
@@ -195,7 +196,7 @@ TEST_CASE("the plan names what is left out, and the counts agree") {
         if (coin()) scene.shutter.open_s = 0.1;
         if (coin()) scene.sampling.m = 40;
         if (coin()) scene.surface.amplitude = 0.0;
-        scene.sampling.estimator = static_cast<scene::EstimatorKind>(random() % 9);
+        scene.sampling.estimator = support::any_estimator(random());
         const Plan plan = make_plan(scene, integrate::Tracer::fast);
         const integrate::Counters counters = count(scene, whole(scene), integrate::Tracer::fast);
         const estimate::Estimator estimator(estimate::estimator_settings(scene));
@@ -203,7 +204,7 @@ TEST_CASE("the plan names what is left out, and the counts agree") {
         CHECK((feature(plan, "2-D noise").needed || feature(plan, "3-D noise").needed) ==
               (counters.noise_evaluations > 0));
         CHECK(feature(plan, "3-D noise").needed ==
-              (scene.surface.kind == scene::SurfaceKind::hyperterrain && scene.surface.amplitude > 0.0));
+              (scene.surface.kind == solid::kKind<solid::DisplacedPlane> && scene.surface.amplitude > 0.0));
         CHECK(feature(plan, "time samples").needed == !estimator.settings().shutter.instant());
         CHECK(feature(plan, "shared samples").needed == estimator.shared());
         for (const Feature& each : plan.features) CHECK(!each.why.empty());

@@ -22,11 +22,11 @@ TEST_CASE("counts of every built-in scene lie within their intervals, at several
 
 TEST_CASE("counts lie within their intervals for every estimator") {
     Verdicts verdicts;
-    for (int kind = 0; kind < 9; ++kind) {
+    for (const scene::EstimatorRow& row : scene::all_estimators()) {
         for (const char* name : {"terrain", "planet"}) {
             scene::Scene scene = builtin_of_size(*scene::find_builtin(name), 224, 3);
-            scene.sampling.estimator = static_cast<scene::EstimatorKind>(kind);
-            judge(std::string(name) + " estimator " + std::to_string(kind), scene, verdicts);
+            scene.sampling.estimator = row.kind;
+            judge(std::string(name) + " " + std::string(row.name), scene, verdicts);
         }
     }
     conclude(verdicts);

@@ -15,14 +15,14 @@ namespace strata::trace_test {
 // Random surfaces beyond random_surface(): 1 to 24 octaves, or none, steep amplitudes, planets from small to large.
 inline scene::Surface beam_surface(Random& random, int index) {
     scene::Surface surface = index % 3 == 2 ? random_drifting_surface(random) : random_surface(random);
-    surface.kind = static_cast<scene::SurfaceKind>(index % 4);
+    surface.kind = support::any_kind(static_cast<std::uint64_t>(index));
     if (index % 5 == 1) {
         surface.octaves = 17 + static_cast<int>(random() % 8);
         surface.gain = std::min(surface.gain, 0.55);
     }
     if (index % 7 == 3) surface.amplitude *= 8.0;
     if (index % 11 == 7) surface.amplitude = 0.0;
-    if (surface.kind == scene::SurfaceKind::planet) surface.radius = log_uniform(random, 1e-2, 1e4);
+    surface.shape<solid::Sphere>().radius = log_uniform(random, 1e-2, 1e4);
     return surface;
 }
 
@@ -61,7 +61,7 @@ class BeamFamilies {
                 beam.start = log_uniform(random, 1e-4, 1.0) * beam.limit;
                 break;
             case 4:  // far from the noise's origin
-                if (field_.surface().kind != scene::SurfaceKind::planet) {
+                if (solid::row_of(field_.surface().kind).is_level) {
                     const double far = std::exp2(uniform(random, 10.0, 31.0));
                     beam.origin += far * glm::dvec3(uniform(random, -1.0, 1.0), 0.0, uniform(random, -1.0, 1.0));
                 }
@@ -79,19 +79,15 @@ class BeamFamilies {
 
     // Of what there is to see.
     double length_scale() const {
-        const scene::Surface& s = field_.surface();
-        if (s.kind == scene::SurfaceKind::planet) return s.radius + field_.amplitude();
-        if (s.kind == scene::SurfaceKind::isosurface) return 2.0;
-        return std::max(0.2, 2.0 * field_.amplitude());
+        const double ball = field_.extent().ball;
+        return std::isfinite(ball) ? std::min(ball, 1e5) : std::max(0.2, 2.0 * field_.amplitude());
     }
 
   private:
     glm::dvec3 near_point(Random& random) const {
         const double height = uniform(random, -0.3, 1.0) * field_.amplitude();
-        const scene::Surface& s = field_.surface();
-        if (s.kind == scene::SurfaceKind::planet) return (s.radius + height) * unit_vector(random);
-        if (s.kind == scene::SurfaceKind::isosurface) return uniform(random, 0.0, 3.0) * unit_vector(random);
-        return {uniform(random, -50.0, 50.0), height, uniform(random, -50.0, 50.0)};
+        if (solid::row_of(field_.surface().kind).has_bound) return uniform(random, 0.0, 3.0) * unit_vector(random);
+        return solid::over(field_.solid(), 60.0 * unit_vector(random), height);
     }
 
     // Just over the surface where the noise rises nearly as the base does: f is level there, yet noise that is

@@ -42,7 +42,7 @@ inline double delta(const trace::Ray& ray, double s) { return ray.delta0 + ray.d
 // The default surface of each kind, then random ones.
 inline std::vector<scene::Surface> surfaces(Random& random, int random_count) {
     std::vector<scene::Surface> all;
-    for (int kind = 0; kind < 4; ++kind) all.push_back(surface_of(static_cast<scene::SurfaceKind>(kind)));
+    for (const solid::Kind kind : support::all_kinds()) all.push_back(surface_of(kind));
     for (int i = 0; i < random_count; ++i) all.push_back(random_surface(random));
     return all;
 }

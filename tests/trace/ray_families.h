@@ -9,6 +9,7 @@
 #include "src/trace/fast_tracer.h"
 #include "src/trace/field.h"
 #include "src/trace/shadow_ray.h"
+#include "tests/support/surfaces.h"
 #include "tools/stability/oracles/ray_oracle.h"
 #include "tools/stability/oracles/shape_of.h"
 
@@ -29,28 +30,29 @@ inline glm::dvec3 unit_vector(Random& random) {
     return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
 }
 
-inline scene::Surface surface_of(scene::SurfaceKind kind) {
+inline scene::Surface surface_of(solid::Kind kind) {
     scene::Surface surface;
     surface.kind = kind;
-    surface.bound_size = glm::dvec3(3.0, 2.0, 2.5);
-    surface.radius = 5.0;
+    surface.shape<solid::LevelSet>().bound_size = glm::dvec3(3.0, 2.0, 2.5);
+    surface.shape<solid::Sphere>().radius = 5.0;
     return surface;
 }
 
 // The design range: 1 to 16 octaves, gain 0.3 to 0.7, lacunarity 1.7 to 3, slopes of single octaves to about 10.
 inline scene::Surface random_surface(Random& random) {
-    scene::Surface surface = surface_of(static_cast<scene::SurfaceKind>(random() % 4));
+    scene::Surface surface = surface_of(support::any_kind(random()));
     surface.octaves = 1 + static_cast<int>(random() % 16);
     surface.gain = uniform(random, 0.3, 0.7);
     surface.lacunarity = uniform(random, 1.7, 3.0);
-    const bool bounded = surface.kind == scene::SurfaceKind::isosurface;
+    const bool bounded = solid::row_of(surface.kind).has_bound;
     surface.frequency = log_uniform(random, bounded ? 0.3 : 0.05, 2.0);
     const double growth = std::max(1.0, surface.gain * surface.lacunarity);
     const double steepest = 3.75 * surface.frequency * std::pow(growth, surface.octaves - 1);
     surface.amplitude = std::min(1.5, log_uniform(random, 0.5, 10.0) / steepest);
     surface.seed = random() >> 1;
-    surface.bound = random() % 2 == 0 ? scene::BoundKind::ball : scene::BoundKind::box;
-    surface.threshold = uniform(random, -0.1, 0.1) * surface.amplitude;
+    surface.shape<solid::LevelSet>().bound =
+        random() % 2 == 0 ? solid::LevelSet::Bound::ball : solid::LevelSet::Bound::box;
+    surface.shape<solid::LevelSet>().threshold = uniform(random, -0.1, 0.1) * surface.amplitude;
     return surface;
 }
 
@@ -112,20 +114,20 @@ class RayFamilies {
     // About the surface, within a few amplitudes of it.
     glm::dvec3 near_point(Random& random) const {
         const double height = uniform(random, -0.5, 1.0) * field_.amplitude();
-        const scene::Surface& s = field_.surface();
-        if (s.kind == scene::SurfaceKind::planet) return (s.radius + height) * unit_vector(random);
-        if (s.kind == scene::SurfaceKind::isosurface)
-            return uniform(random, 0.0, 1.2) * s.bound_size * unit_vector(random);
-        return {uniform(random, -50.0, 50.0), height, uniform(random, -50.0, 50.0)};
+        if (solid::row_of(field_.surface().kind).has_bound) {
+            const glm::dvec3& size = field_.surface().shape<solid::LevelSet>().bound_size;
+            return uniform(random, 0.0, 1.2) * size * unit_vector(random);
+        }
+        return solid::over(field_.solid(), 60.0 * unit_vector(random), height);
     }
 
     trace::Ray outer_ray(Random& random) const {
         const glm::dvec3 target = near_point(random);
-        const scene::Surface& s = field_.surface();
         glm::dvec3 from = target + unit_vector(random) * uniform(random, 0.5, 12.0);
-        if (s.kind == scene::SurfaceKind::planet) from = glm::normalize(target) * uniform(random, 1.0, 2.5) * s.radius;
-        if (s.kind != scene::SurfaceKind::isosurface && s.kind != scene::SurfaceKind::planet) {
-            from.y = uniform(random, 0.2, 2.0) * field_.amplitude() + 0.05;
+        if (!solid::row_of(field_.surface().kind).has_bound) {
+            const double ball = field_.extent().ball;
+            const double far = std::isfinite(ball) && random() % 2 == 0 ? uniform(random, 0.0, 1.5) * ball : 0.0;
+            from = solid::over(field_.solid(), from, uniform(random, 0.2, 2.0) * field_.amplitude() + 0.05 + far);
         }
         const glm::dvec3 toward = target + 0.3 * unit_vector(random) - from;
         return make_ray(from, glm::normalize(toward));

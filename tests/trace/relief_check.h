@@ -19,11 +19,12 @@ inline void check_rays(const scene::Surface& surface, std::size_t count, Random&
     trace::TraceCounters counters;
     tracer.trace(rays, hits, counters);
     const Judgement found = judge_composed(surface, rays, hits, families.times());
-    MESSAGE("kind " << static_cast<int>(surface.kind) << ", " << surface.relief.size() << " terms, " << found.rays
-                    << " rays, " << found.hits << " hits, thickest stretch passed over " << found.thickest
-                    << " delta (bound 1), undecided " << found.undecided << ", evaluations a ray "
-                    << static_cast<double>(counters.noise_evaluations) / static_cast<double>(rays.size())
-                    << ", steps a ray " << static_cast<double>(counters.steps) / static_cast<double>(rays.size()));
+    MESSAGE(solid::row_of(surface.kind).name
+            << ", " << surface.relief.size() << " terms, " << found.rays << " rays, " << found.hits
+            << " hits, thickest stretch passed over " << found.thickest << " delta (bound 1), undecided "
+            << found.undecided << ", evaluations a ray "
+            << static_cast<double>(counters.noise_evaluations) / static_cast<double>(rays.size()) << ", steps a ray "
+            << static_cast<double>(counters.steps) / static_cast<double>(rays.size()));
     INFO("last violation from (" << found.origin.x << ' ' << found.origin.y << ' ' << found.origin.z << ") towards ("
                                  << found.direction.x << ' ' << found.direction.y << ' ' << found.direction.z << ')');
     CHECK(found.missed == 0);
@@ -33,7 +34,7 @@ inline void check_rays(const scene::Surface& surface, std::size_t count, Random&
     rays_total += found.rays;
 }
 
-inline scene::Surface plain(scene::SurfaceKind kind, std::vector<noise::ReliefTerm> relief) {
+inline scene::Surface plain(solid::Kind kind, std::vector<noise::ReliefTerm> relief) {
     scene::Surface surface;
     surface.kind = kind;
     surface.relief = std::move(relief);

@@ -77,9 +77,10 @@ inline std::vector<noise::ReliefTerm> random_landform(Random& random, unsigned m
 inline scene::Surface random_composed_surface(Random& random) {
     scene::Surface surface = random_surface(random);
     surface.relief = random_relief(random);
-    if (surface.kind == scene::SurfaceKind::isosurface) {
+    if (solid::row_of(surface.kind).has_bound) {
         const noise::Certificate found = noise::Relief(surface.relief, 3).certificate();
-        surface.threshold = 0.5 * (found.low + found.high) + uniform(random, -0.1, 0.1) * (found.high - found.low);
+        surface.shape<solid::LevelSet>().threshold =
+            0.5 * (found.low + found.high) + uniform(random, -0.1, 0.1) * (found.high - found.low);
     }
     return surface;
 }
@@ -91,8 +92,8 @@ class ComposedField {
         : drifted_{time * surface.drift.x, time * surface.drift.y, time * surface.drift.z},
           shape_(oracle::shape_of(surface)),
           bare_(bare(surface)),
-          relief_(surface.relief, surface.kind == scene::SurfaceKind::terrain),
-          base_slope_(surface.kind == scene::SurfaceKind::isosurface ? 0.0 : 1.0),
+          relief_(surface.relief, solid::row_of(surface.kind).dimensions == 2),
+          base_slope_(shape_.kind == oracle::Kind::isosurface ? 0.0 : 1.0),
           slope_(relief_.slope() + base_slope_) {}
 
     oracle::Probe probe(const oracle::Vec& p) const {

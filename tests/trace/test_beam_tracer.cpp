@@ -12,7 +12,6 @@
 
 using namespace strata;
 using namespace strata::trace_test;
-using scene::SurfaceKind;
 using trace::Beam;
 using trace::BeamEnd;
 
@@ -186,7 +185,7 @@ TEST_CASE("a beam's end has the same bits in batches of 1 to 64, in any order, b
 TEST_CASE("without octaves a beam ends, or misses, where the rim of its bundle meets the plane, by algebra") {
     on_every_target([](const std::string& target) {
         Random random(73);
-        scene::Surface flat = surface_of(SurfaceKind::hyperterrain);
+        scene::Surface flat = surface_of(solid::kKind<solid::DisplacedPlane>);
         flat.amplitude = 0.0;
         const trace::Field field(flat);
         const trace::BeamTracer tracer(field);

@@ -11,7 +11,6 @@
 
 using namespace strata;
 using namespace strata::trace_test;
-using scene::SurfaceKind;
 using trace::Hit;
 using trace::HitState;
 using trace::Ray;
@@ -40,8 +39,8 @@ const Extreme kExtremes[] = {
     {"frequency 1e9, amplitude 1e-9", 8, 0.5, 2.0, 1e-9, 1e9},
 };
 
-scene::Surface surface_with(const Extreme& extreme, int kind) {
-    scene::Surface surface = surface_of(static_cast<SurfaceKind>(kind));
+scene::Surface surface_with(const Extreme& extreme, solid::Kind kind) {
+    scene::Surface surface = surface_of(kind);
     surface.octaves = extreme.octaves;
     surface.gain = extreme.gain;
     surface.lacunarity = extreme.lacunarity;
@@ -57,7 +56,7 @@ TEST_CASE("extreme fields: every ray ends within the step limit, with finite ans
     for (const Extreme& extreme : kExtremes) {
         std::uint32_t most_steps = 0;
         int unresolved = 0, hits = 0;
-        for (int kind = 0; kind < 4; ++kind) {
+        for (const solid::Kind kind : support::all_kinds()) {
             const trace::Field field(surface_with(extreme, kind));
             const trace::FastTracer tracer(field);
             std::vector<Ray> rays;
@@ -105,7 +104,7 @@ TEST_CASE("fields of the extremes that the oracle can follow keep the tracer's p
     Random random(72);
     for (const Extreme& extreme : kExtremes) {
         if (extreme.frequency > 1.0 || extreme.octaves == 32) continue;
-        for (int kind = 0; kind < 4; ++kind) {
+        for (const solid::Kind kind : support::all_kinds()) {
             const scene::Surface surface = surface_with(extreme, kind);
             const trace::Field field(surface);
             const trace::FastTracer tracer(field);
@@ -121,7 +120,7 @@ TEST_CASE("fields of the extremes that the oracle can follow keep the tracer's p
             tracer.trace(rays, hits, counters);
             const Judgement found = judge(surface, rays, hits);
             CAPTURE(extreme.name);
-            CAPTURE(kind);
+            CAPTURE(solid::row_of(kind).name);
             CHECK(found.missed == 0);
             CHECK(found.unfounded == 0);
         }
@@ -132,8 +131,8 @@ TEST_CASE("a ray that starts on the surface gets away, whichever side of it roun
     Random random(73);
     std::uint32_t most_steps = 0;
     int left = 0;
-    for (int kind = 0; kind < 4; ++kind) {
-        const scene::Surface surface = surface_of(static_cast<SurfaceKind>(kind));
+    for (const solid::Kind kind : support::all_kinds()) {
+        const scene::Surface surface = surface_of(kind);
         const trace::Field field(surface);
         const trace::FastTracer tracer(field);
         for (int trial = 0; trial < 200; ++trial) {
@@ -141,7 +140,7 @@ TEST_CASE("a ray that starts on the surface gets away, whichever side of it roun
             glm::dvec3 outside, inside;
             const auto sample = [&] {
                 glm::dvec3 x = 1.9 * unit_vector(random);
-                if (kind == 2) x = uniform(random, 4.0, 6.0) * unit_vector(random);
+                if (!solid::row_of(kind).is_level) x = uniform(random, 4.0, 6.0) * unit_vector(random);
                 return x;
             };
             do outside = sample();

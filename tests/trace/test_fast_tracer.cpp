@@ -15,7 +15,6 @@
 
 using namespace strata;
 using namespace strata::trace_test;
-using scene::SurfaceKind;
 using trace::Hit;
 using trace::HitState;
 using trace::Ray;
@@ -114,7 +113,7 @@ TEST_CASE(
                     inside += !hit.on_bound;
                     on_bound += hit.on_bound;
                     REQUIRE(f_at(hit.s) <= 1e-13);
-                    REQUIRE(hit.on_bound == (hit.s > 0.0 && surface.kind == SurfaceKind::isosurface));
+                    REQUIRE(hit.on_bound == (hit.s > 0.0 && solid::row_of(surface.kind).has_bound));
                     continue;
                 }
                 REQUIRE(!hit.on_bound);
@@ -141,9 +140,9 @@ TEST_CASE("rays that start inside or exactly on the surface hit at 0 in one step
             int found_inside = 0;
             for (int i = 0; i < 300; ++i) {
                 glm::dvec3 x = 2.0 * unit_vector(random);
-                if (surface.kind == SurfaceKind::planet) x *= uniform(random, 0.0, 2.4);
+                if (!solid::row_of(surface.kind).is_level) x *= uniform(random, 0.0, 2.4);
                 if (expected.value({x.x, x.y, x.z}) > -1e-12) continue;
-                if (surface.kind == SurfaceKind::isosurface && glm::length(x) > 1.99 + 1.0) continue;
+                if (solid::row_of(surface.kind).has_bound && glm::length(x) > 1.99 + 1.0) continue;
                 const Ray ray{.origin = x, .direction = unit_vector(random), .limit = 5.0, .delta_slope = 1e-4};
                 const Traced traced = trace_all(tracer, {&ray, 1});
                 if (field.clip(ray.origin, ray.direction, ray.limit).begin > 0.0) continue;
@@ -157,7 +156,7 @@ TEST_CASE("rays that start inside or exactly on the surface hit at 0 in one step
             CHECK(found_inside > 10);
         }
     });
-    scene::Surface flat = surface_of(SurfaceKind::terrain);
+    scene::Surface flat = surface_of(solid::kKind<solid::HeightField>);
     flat.amplitude = 0.0;
     const trace::Field field(flat);
     const trace::FastTracer tracer(field);
@@ -201,7 +200,7 @@ TEST_CASE("without octaves, planes and spheres are hit where algebra says, witho
         int hits = 0;
         for (int trial = 0; trial < 3000; ++trial) {
             const bool plane = trial % 2 == 0;
-            scene::Surface surface = surface_of(plane ? SurfaceKind::terrain : SurfaceKind::planet);
+            scene::Surface surface = surface_of(plane ? solid::kKind<solid::HeightField> : solid::kKind<solid::Sphere>);
             surface.amplitude = 0.0;
             const trace::Field field(surface);
             const trace::FastTracer tracer(field);
@@ -271,7 +270,7 @@ TEST_CASE("of every point that a ray looks at each octave is evaluated or left o
     std::uint64_t settled = 0, too_fine = 0;
     for (int i = 0; i < 16; ++i) {
         scene::Surface surface = random_surface(random);
-        surface.kind = static_cast<SurfaceKind>(i % 4);
+        surface.kind = support::any_kind(static_cast<std::uint64_t>(i));
         const trace::Field field(surface);
         const trace::FastTracer tracer(field);
         RayFamilies families(field, tracer, 1e-3);

@@ -7,16 +7,13 @@
 #include <cmath>
 #include <functional>
 
+#include "tests/support/surfaces.h"
 #include "tests/trace/ray_families.h"
 
 using namespace strata;
 using namespace strata::trace_test;
-using scene::SurfaceKind;
 
 namespace {
-
-constexpr SurfaceKind kKinds[] = {SurfaceKind::terrain, SurfaceKind::hyperterrain, SurfaceKind::planet,
-                                  SurfaceKind::isosurface};
 
 oracle::Vec vec(const glm::dvec3& x) { return {x.x, x.y, x.z}; }
 
@@ -28,7 +25,7 @@ glm::dvec3 anywhere(Random& random, double reach) {
 // of each octave's value.
 double rounding(const trace::Field& field, const glm::dvec3& x) {
     const double sums = 4.0 + static_cast<double>(field.octaves().size());
-    double sum = sums * (glm::length(x) + field.surface().radius + field.amplitude());
+    double sum = sums * (glm::length(x) + std::abs(field.base(glm::dvec3(0.0))) + field.amplitude());
     for (const noise::Octave& octave : field.octaves()) {
         sum += octave.amplitude * (16.0 + 16.0 * (octave.frequency * glm::length(x) + 1.0));
     }
@@ -50,8 +47,9 @@ glm::dvec3 climb(Random& random, glm::dvec3 x, double step, const std::function<
 
 // How far x lies outside the isosurface's bound; negative inside.
 double outside_bound(const scene::Surface& surface, const glm::dvec3& x) {
-    if (surface.bound == scene::BoundKind::ball) return glm::length(x) - surface.bound_size.x;
-    const glm::dvec3 beyond = glm::abs(x) - surface.bound_size;
+    const auto& set = surface.shape<solid::LevelSet>();
+    if (set.bound == solid::LevelSet::Bound::ball) return glm::length(x) - set.bound_size.x;
+    const glm::dvec3 beyond = glm::abs(x) - set.bound_size;
     return std::max({beyond.x, beyond.y, beyond.z});
 }
 
@@ -62,7 +60,7 @@ TEST_CASE("value, base and every octave agree with the oracle") {
     double worst = 0.0;
     for (int trial = 0; trial < 400; ++trial) {
         scene::Surface surface = random_surface(random);
-        surface.kind = kKinds[trial % 4];
+        surface.kind = support::any_kind(static_cast<std::uint64_t>(trial));
         const trace::Field field(surface);
         const oracle::FieldOracle expected(shape_of(surface));
         REQUIRE(field.octaves().size() == expected.octaves().size());
@@ -85,7 +83,7 @@ TEST_CASE("value, base and every octave agree with the oracle") {
 
 TEST_CASE("octaves that cannot change a double are left out, and the sum stays the same") {
     Random random(12);
-    scene::Surface surface = surface_of(SurfaceKind::hyperterrain);
+    scene::Surface surface = surface_of(solid::kKind<solid::DisplacedPlane>);
     surface.octaves = 32;
     surface.lacunarity = 1.2;
     for (const double gain : {0.0, 1e-3, 0.1, 0.15}) {
@@ -112,13 +110,18 @@ TEST_CASE("the gradient agrees with central differences of the oracle in extende
     double worst = 0.0;
     for (int trial = 0; trial < 200; ++trial) {
         scene::Surface surface = random_surface(random);
-        surface.kind = kKinds[trial % 4];
+        surface.kind = support::any_kind(static_cast<std::uint64_t>(trial));
         const trace::Field field(surface);
         const oracle::FieldOracle expected(shape_of(surface));
         const glm::dvec3 x = anywhere(random, 6.0);
-        glm::dvec3 gradient = surface.kind == SurfaceKind::planet       ? x / glm::length(x)
-                              : surface.kind == SurfaceKind::isosurface ? glm::dvec3(0.0)
-                                                                        : glm::dvec3(0.0, 1.0, 0.0);
+        // Central differences are exact for planes and level sets, and for spheres as far as 1e-6 counts here.
+        glm::dvec3 gradient;
+        for (int a = 0; a < 3; ++a) {
+            glm::dvec3 up = x, down = x;
+            up[a] += 0x1p-12, down[a] -= 0x1p-12;
+            const long double rise = expected.base<long double>(vec(up)) - expected.base<long double>(vec(down));
+            gradient[a] = static_cast<double>(rise / 0x1p-11L);
+        }
         double slopes = 1.0;
         for (std::size_t k = 0; k < expected.octaves().size(); ++k) {
             const oracle::OracleOctave& octave = expected.octaves()[k];
@@ -144,7 +147,7 @@ TEST_CASE("|f(p) - f(q)| <= L |p - q|, for random pairs and for pairs along the 
     double worst = 0.0;
     for (int trial = 0; trial < 240; ++trial) {
         scene::Surface surface = random_surface(random);
-        surface.kind = kKinds[trial % 4];
+        surface.kind = support::any_kind(static_cast<std::uint64_t>(trial));
         if (trial % 3 == 0) surface.octaves = 1;
         const trace::Field field(surface);
         const double cell = 1.0 / field.octaves().back().frequency;
@@ -172,7 +175,7 @@ TEST_CASE("the sum of octaves never exceeds amplitude(), at random points and at
     double worst = 0.0;
     for (int trial = 0; trial < 240; ++trial) {
         scene::Surface surface = random_surface(random);
-        surface.kind = kKinds[trial % 4];
+        surface.kind = support::any_kind(static_cast<std::uint64_t>(trial));
         if (trial % 3 == 0) surface.octaves = 1;
         const trace::Field field(surface);
         const auto size = [&](const glm::dvec3& x) { return std::abs(field.base(x) - field.value(x)); };
@@ -206,13 +209,13 @@ trace::Ray clip_ray(Random& random, const trace::Field& field) {
             ray.origin = anywhere(random, 0.5);
             break;
         case 1:  // grazing the ball, the shell or a face
-            ray.origin =
-                (surface.kind == SurfaceKind::planet ? surface.radius + field.amplitude() : surface.bound_size.x) *
-                glm::normalize(glm::cross(ray.direction, unit_vector(random)));
+            ray.origin = (std::isfinite(field.extent().ball) ? field.extent().ball : 1.0) *
+                         glm::normalize(glm::cross(ray.direction, unit_vector(random)));
             ray.origin -= uniform(random, 0.0, 20.0) * ray.direction;
             break;
         case 2:
-            ray.origin[axis] = surface.kind == SurfaceKind::isosurface ? surface.bound_size[axis] : field.amplitude();
+            ray.origin[axis] = solid::row_of(surface.kind).has_bound ? surface.shape<solid::LevelSet>().bound_size[axis]
+                                                                     : field.amplitude();
             if (random() % 2 == 0)
                 ray.direction = glm::normalize(ray.direction * glm::dvec3(axis != 0, axis != 1, axis != 2) + 1e-9);
             break;
@@ -228,8 +231,9 @@ TEST_CASE("outside of clip()'s interval a ray meets nothing, and the interval li
     Random random(16);
     int empty = 0, shortened = 0, entered = 0;
     for (int trial = 0; trial < 6000; ++trial) {
-        scene::Surface surface = surface_of(kKinds[trial % 4]);
-        surface.bound = random() % 2 == 0 ? scene::BoundKind::ball : scene::BoundKind::box;
+        scene::Surface surface = surface_of(support::any_kind(static_cast<std::uint64_t>(trial)));
+        surface.shape<solid::LevelSet>().bound =
+            random() % 2 == 0 ? solid::LevelSet::Bound::ball : solid::LevelSet::Bound::box;
         surface.amplitude = random() % 4 == 0 ? 0.0 : log_uniform(random, 1e-3, 2.0);
         const trace::Field field(surface);
         const oracle::FieldOracle expected(shape_of(surface));
@@ -245,7 +249,7 @@ TEST_CASE("outside of clip()'s interval a ray meets nothing, and the interval li
         const double size = glm::length(ray.origin) + ray.limit;
         const auto is_clear = [&](double s) {
             const glm::dvec3 x = ray.origin + s * ray.direction;
-            if (surface.kind == SurfaceKind::isosurface && outside_bound(surface, x) > -1e-14 * size) return true;
+            if (solid::row_of(surface.kind).has_bound && outside_bound(surface, x) > -1e-14 * size) return true;
             return expected.value(vec(x)) > 0.0;
         };
         CAPTURE(trial);
@@ -258,7 +262,7 @@ TEST_CASE("outside of clip()'s interval a ray meets nothing, and the interval li
         }
         if (is_empty || !inside.enters_bound) continue;
         ++entered;
-        REQUIRE(surface.kind == SurfaceKind::isosurface);
+        REQUIRE(solid::row_of(surface.kind).has_bound);
         const glm::dvec3 at = ray.origin + inside.begin * ray.direction;
         REQUIRE(std::abs(outside_bound(surface, at)) < 1e-7 * size);
         const glm::dvec3 normal = field.bound_normal(at);
@@ -276,7 +280,7 @@ TEST_CASE("drifting noise is the oracle's at the time, while base and bound stay
     double worst = 0.0;
     for (int trial = 0; trial < 400; ++trial) {
         scene::Surface surface = random_drifting_surface(random);
-        surface.kind = static_cast<SurfaceKind>(trial % 4);
+        surface.kind = support::any_kind(static_cast<std::uint64_t>(trial));
         const trace::Field field(surface);
         const double time = uniform(random, -50.0, 50.0);
         const oracle::FieldOracle expected(shape_of(surface, time));

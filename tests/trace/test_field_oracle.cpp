@@ -30,7 +30,7 @@ Vec along(const Vec& p, const Vec& d, double s) { return {p[0] + s * d[0], p[1] 
 
 Shape random_shape(std::mt19937_64& random) {
     Shape shape;
-    shape.kind = static_cast<Kind>(random() % 4);
+    shape.kind = static_cast<Kind>(random() % kShapeKinds);
     shape.octaves = 1 + static_cast<int>(random() % 10);
     shape.lacunarity = uniform(random, 1.7, 3.0);
     shape.gain = uniform(random, 0.3, 0.7);

@@ -10,7 +10,6 @@
 
 using namespace strata;
 using namespace strata::trace_test;
-using scene::SurfaceKind;
 
 namespace {
 
@@ -37,7 +36,7 @@ TEST_CASE("gradients of drifting noise agree with the reference path, each point
         double worst = 0.0;
         for (int trial = 0; trial < 40; ++trial) {
             scene::Surface surface = random_drifting_surface(random);
-            surface.kind = static_cast<SurfaceKind>(trial % 4);
+            surface.kind = support::any_kind(static_cast<std::uint64_t>(trial));
             const trace::Field field(surface);
             const trace::FastTracer tracer(field);
             const std::vector<glm::dvec3> x = points(random, 1 + random() % 70, 20.0);
@@ -62,7 +61,7 @@ TEST_CASE("gradients agree with the reference path within float rounding, near a
         double worst = 0.0;
         for (int trial = 0; trial < 80; ++trial) {
             scene::Surface surface = random_surface(random);
-            surface.kind = static_cast<SurfaceKind>(trial % 4);
+            surface.kind = support::any_kind(static_cast<std::uint64_t>(trial));
             const trace::Field field(surface);
             const trace::FastTracer tracer(field);
             // Every third reaches beyond the cells that share a block of the hash.
@@ -94,7 +93,7 @@ TEST_CASE("a point's gradient has the same bits in any batch, beside near and fa
         Random random(42);
         for (int trial = 0; trial < 16; ++trial) {
             scene::Surface surface = random_surface(random);
-            surface.kind = static_cast<SurfaceKind>(trial % 4);
+            surface.kind = support::any_kind(static_cast<std::uint64_t>(trial));
             const trace::Field field(surface);
             const trace::FastTracer tracer(field);
             std::vector<glm::dvec3> x = points(random, 100, 50.0);
@@ -116,8 +115,8 @@ TEST_CASE("a point's gradient has the same bits in any batch, beside near and fa
 
 TEST_CASE("without octaves the gradient is the base's") {
     Random random(43);
-    for (int kind = 0; kind < 4; ++kind) {
-        scene::Surface surface = surface_of(static_cast<SurfaceKind>(kind));
+    for (const solid::Kind kind : support::all_kinds()) {
+        scene::Surface surface = surface_of(kind);
         surface.amplitude = 0.0;
         const trace::Field field(surface);
         const trace::FastTracer tracer(field);

@@ -118,7 +118,7 @@ TEST_CASE("no octave can bring f to zero before the certified step, whatever the
         int positive = 0;
         for (int trial = 0; trial < 4000; ++trial) {
             scene::Surface surface;
-            surface.kind = scene::SurfaceKind::hyperterrain;
+            surface.kind = solid::kKind<solid::DisplacedPlane>;
             surface.octaves = 1 + static_cast<int>(random() % 16);
             surface.gain = uniform(random, 0.3, 0.7);
             surface.lacunarity = uniform(random, 1.7, 3.0);

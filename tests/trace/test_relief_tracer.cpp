@@ -10,7 +10,7 @@ using namespace strata::trace_test;
 TEST_CASE("no ray passes over a ridged or a warped relief, and every hit is on it") {
     Random random(11);
     std::size_t rays = 0;
-    for (const auto kind : {scene::SurfaceKind::terrain, scene::SurfaceKind::hyperterrain}) {
+    for (const auto kind : {solid::kKind<solid::HeightField>, solid::kKind<solid::DisplacedPlane>}) {
         noise::Ridged ridged;
         ridged.parameters = {.octaves = 6, .gain = 0.46, .amplitude = 1.4, .frequency = 0.3, .seed = 7};
         check_rays(plain(kind, {{"ridges", {}, ridged}}), 1500, random, rays);
@@ -129,7 +129,7 @@ TEST_CASE("within a beam's free stretch no point is inside a composed relief") {
 TEST_CASE("a ray that starts closer to a relief than float can tell comes away from it") {
     noise::Ridged ridged;
     ridged.parameters = {.octaves = 5, .gain = 0.46, .amplitude = 1.4, .frequency = 0.3, .seed = 7};
-    for (const auto kind : {scene::SurfaceKind::terrain, scene::SurfaceKind::hyperterrain}) {
+    for (const auto kind : {solid::kKind<solid::HeightField>, solid::kKind<solid::DisplacedPlane>}) {
         const trace::Field field(plain(kind, {{"ridges", {}, ridged}}));
         const trace::FastTracer tracer(field);
         Random random(17);

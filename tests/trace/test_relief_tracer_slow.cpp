@@ -6,7 +6,7 @@ using namespace strata::trace_test;
 
 namespace {
 
-constexpr scene::SurfaceKind kGrounds[] = {scene::SurfaceKind::terrain, scene::SurfaceKind::hyperterrain};
+constexpr solid::Kind kGrounds[] = {solid::kKind<solid::HeightField>, solid::kKind<solid::DisplacedPlane>};
 
 }  // namespace
 

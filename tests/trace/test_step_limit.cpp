@@ -8,7 +8,7 @@ using namespace strata;
 
 TEST_CASE("a ray that needs more steps than its limit is unresolved, by both tracers; one that needs as many is not") {
     scene::Surface surface;
-    surface.kind = scene::SurfaceKind::hyperterrain;
+    surface.kind = solid::kKind<solid::DisplacedPlane>;
     const trace::Field field(surface);
     const trace::FastTracer fast(field);
     trace::Ray ray{.origin = {0.3, 0.9, 0.1},

@@ -25,7 +25,7 @@ struct SizedWindow {
 
 scene::Surface window_surface(Random& random, int index) {
     scene::Surface surface = random_surface(random);
-    surface.kind = static_cast<scene::SurfaceKind>(index % 4);
+    surface.kind = support::any_kind(static_cast<std::uint64_t>(index));
     if (index % 5 == 1) {
         surface.octaves = 17 + static_cast<int>(random() % 8);
         surface.gain = std::min(surface.gain, 0.55);
@@ -133,7 +133,7 @@ TEST_CASE("a window's polynomial is off by less than its error anywhere in its b
 }
 
 TEST_CASE("a larger error allows a larger window, and one without octaves none") {
-    scene::Surface surface = surface_of(scene::SurfaceKind::hyperterrain);
+    scene::Surface surface = surface_of(solid::kKind<solid::DisplacedPlane>);
     surface.octaves = 12;
     const trace::Field field(surface);
     const trace::WindowPlan plan(field);

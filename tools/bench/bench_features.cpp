@@ -160,7 +160,7 @@ void add_pair(
 void dimensions(benchmark::State& state) {
     const scene::Scene flat = plain("terrain");
     scene::Scene space = flat;
-    space.surface.kind = scene::SurfaceKind::hyperterrain;
+    space.surface.kind = solid::kKind<solid::DisplacedPlane>;
     const Side first(flat), second(space);
     const double a = static_cast<double>(first.render().counters.noise_evaluations);
     const double b = static_cast<double>(second.render().counters.noise_evaluations);

@@ -54,7 +54,7 @@ Variant hyperterrain_octaves(int octaves) {
 Variant hyperterrain_planar() {
     Variant variant = hyperterrain();
     variant.name += ", 2-D noise";
-    variant.scene.surface.kind = scene::SurfaceKind::terrain;
+    variant.scene.surface.kind = solid::kKind<solid::HeightField>;
     variant.block_seeds = kPlanarBlocks;
     return variant;
 }

@@ -13,6 +13,7 @@
 #include "src/image/metadata.h"
 #include "src/image/read.h"
 #include "src/scene/builtin.h"
+#include "src/scene/enum_names.h"
 #include "src/scene/key_text.h"
 #include "src/scene/override.h"
 #include "src/scene/scene_text.h"
@@ -110,8 +111,7 @@ struct KeyOption {
 constexpr std::array<KeyOption, 9> kKeyOptions{{
     {"-N,--samples", "sampling.N", "N", "Samples a side, N*N a pixel, 1 to 64"},
     {"-m,--order", "sampling.m", "M", "Order of the B-spline filter, 1 (box) to 100"},
-    {"--estimator", "sampling.estimator", "NAME",
-     "none, super, uniform, jittered, stratified, random, sobol, shared or shared-sobol"},
+    {"--estimator", "sampling.estimator", "NAME", "What places and weighs samples"},
     {"--seed", "sampling.seed", "S", "Seed of the sample positions, 0 or more"},
     {"--time-order", "sampling.time_order", "L", "Order of the B-spline filter in time, 1 to 100"},
     {"--frame", "shutter.frame", "K", "Number of the frame, from 0"},
@@ -119,6 +119,12 @@ constexpr std::array<KeyOption, 9> kKeyOptions{{
     {"--exposure", "film.exposure", "STOPS", "Brightening of PNG, TIFF and JPEG in stops, -64 to 64"},
     {"--tone", "film.tone", "NAME", "Tone curve of PNG, TIFF and JPEG: none, reinhard or agx"},
 }};
+
+// With the names that it may have, if those are few.
+std::string meaning_of(const KeyOption& option) {
+    if (option.key != std::string_view("sampling.estimator")) return option.meaning;
+    return fmt::format("{}: {}", option.meaning, fmt::join(scene::kEnumNames<scene::EstimatorKind>, ", "));
+}
 
 }  // namespace
 
@@ -156,7 +162,7 @@ void SceneArgument::add_to(Command& command, const char* name, std::span<const s
         const KeyOption& option = kKeyOptions[i];
         if (std::ranges::find(own, option.key) != own.end()) continue;
         command.add_option(option.names, key_values_[i], option.type,
-                           fmt::format("{}; default the scene's {}", option.meaning, option.key));
+                           fmt::format("{}; default the scene's {}", meaning_of(option), option.key));
     }
 }
 

@@ -110,7 +110,7 @@ void test_bias(const Experiment& experiment, Analysis& analysis) {
 std::optional<double> visible_bias(const Experiment& experiment, const Point& point) {
     if (point.fixed) return point.rmse().value;
     if (point.seeds() < 2) return std::nullopt;
-    const bool shared = point.estimator == EstimatorKind::shared || point.estimator == EstimatorKind::shared_sobol;
+    const bool shared = scene::row_of(point.estimator).is_shared();
     const PixelErrors::SquaredBias bias = point.errors.squared_bias();
     // Shared samples go to m pixels along each axis: so much wider the mean over pixels spreads.
     const double noise = 2 * (shared ? point.m : 1) * bias.standard_error;

@@ -30,9 +30,26 @@ using scene::EstimatorKind;
 constexpr int kMostSeeds = 10000;
 constexpr int kDefaultSide = 64;  // px, of the longer side of a frame
 
+std::string all_that_take_several_samples() {
+    std::vector<std::string_view> names;
+    for (const scene::EstimatorRow& row : scene::all_estimators()) {
+        if (!row.is_single) names.push_back(row.name);
+    }
+    return fmt::format("{}", fmt::join(names, ","));
+}
+
+// A line each.
+std::string table_of_estimators() {
+    std::vector<std::string> lines;
+    for (const scene::EstimatorRow& row : scene::all_estimators()) {
+        lines.push_back(fmt::format("{}: {}", row.name, row.meaning));
+    }
+    return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
 struct Request {
     cli::SceneArgument scene;
-    std::string estimators = "super,uniform,jittered,stratified,random,sobol,shared,shared-sobol";
+    std::string estimators = all_that_take_several_samples();
     std::string orders = "1,4", Ns = "1,2,4,8,16,32", tracers = "fast";
     std::optional<int> seeds, threads;
     int repeats = 3;
@@ -145,10 +162,10 @@ void add_command(cli::Command& program) {
         "What to picture: edge, zoneplate, checker, constant or ramp (compared with the exact picture), any other "
         "built-in scene, a scene file or a picture of strata (compared with a reference render). Without --size the "
         "frame is made smaller, 64 pixels at its longer side");
-    const auto list = [&](const char* name, std::string& value, const char* meaning) {
+    const auto list = [&](const char* name, std::string& value, const std::string& meaning) {
         command->add_option(name, value, "LIST", meaning)->capture_default_str();
     };
-    list("--estimators", request->estimators, "Which, with commas between; also none");
+    list("--estimators", request->estimators, "Which, with commas between, of\n" + table_of_estimators());
     list("--m", request->orders, "Orders of the B-spline, 1 to 100; super is order 1 whatever is said");
     list("--N", request->Ns, "Samples a side, 1 to 64");
     list("--tracers", request->tracers, "fast, reference or both");

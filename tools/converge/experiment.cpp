@@ -89,7 +89,7 @@ void Run::combine() {
     for (std::size_t tracer = 0; tracer < all_.settings.tracers.size(); ++tracer) {
         for (const EstimatorKind estimator : all_.settings.estimators) {
             std::vector<int> orders = all_.settings.orders;
-            if (estimator == EstimatorKind::super) orders = {1};
+            if (scene::row_of(estimator).is_box()) orders = {1};
             for (const int m : orders) combinations_.push_back({estimator, m, tracer});
         }
     }
@@ -119,7 +119,7 @@ void Run::warm_up() {
     for (Combination& combination : combinations_) {
         if (cancel_.requested()) return;
         const auto unmeasured = static_cast<std::uint64_t>(all_.settings.seeds);
-        const int used_N = combination.estimator == EstimatorKind::none ? 1 : N;
+        const int used_N = scene::row_of(combination.estimator).is_single ? 1 : N;
         combination.second_a_sample = render(combination, used_N, unmeasured).seconds / (used_N * used_N);
     }
 }
@@ -127,7 +127,7 @@ void Run::warm_up() {
 double Run::cost_s(int N) const {
     double sum = 0;
     for (const Combination& combination : combinations_) {
-        if (combination.estimator == EstimatorKind::none) continue;
+        if (scene::row_of(combination.estimator).is_single) continue;
         sum += kOverhead_s + combination.second_a_sample * N * N;
     }
     return sum;
@@ -223,12 +223,12 @@ void Run::show_progress(double done_s, double total_s) {
 void Run::measure() {
     for (const int N : all_.settings.Ns) {
         for (const Combination& c : combinations_) {
-            if (c.estimator == EstimatorKind::none && N != all_.settings.Ns.front()) continue;
+            if (scene::row_of(c.estimator).is_single && N != all_.settings.Ns.front()) continue;
             Point point;
             point.estimator = c.estimator;
             point.m = c.m;
             point.fixed = deterministic(c.estimator, all_.scene);
-            point.N = c.estimator == EstimatorKind::none ? 1 : N;
+            point.N = scene::row_of(c.estimator).is_single ? 1 : N;
             point.tracer = all_.settings.tracers[c.tracer];
             point.errors = PixelErrors(window_.width(), window_.height());
             all_.points.push_back(std::move(point));

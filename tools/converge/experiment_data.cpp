@@ -9,7 +9,7 @@ namespace strata::tools::converge {
 
 using scene::EstimatorKind;
 
-int order_of(EstimatorKind kind, int m) { return kind == EstimatorKind::super ? 1 : m; }
+int order_of(EstimatorKind kind, int m) { return scene::row_of(kind).is_box() ? 1 : m; }
 
 void Point::add(const film::Film& film, const Reference& reference) {
     image::Picture made = image::make_picture(film.window().width(), film.window().height());
@@ -43,14 +43,13 @@ const Reference& Experiment::reference_of(const Point& point) const {
     return *std::ranges::find_if(references, [order](const Reference& r) { return r.m == order; });
 }
 
-bool unbiased(EstimatorKind kind) {
-    return kind == EstimatorKind::stratified || kind == EstimatorKind::random || kind == EstimatorKind::sobol;
-}
+bool unbiased(EstimatorKind kind) { return scene::row_of(kind).is_unbiased(); }
 
 bool deterministic(EstimatorKind kind, const scene::Scene& scene) {
-    if (kind == EstimatorKind::none) return true;
+    const scene::EstimatorRow& row = scene::row_of(kind);
+    if (row.is_single) return true;
     const bool instant = !(scene.shutter.open_s > 0);
-    return instant && (kind == EstimatorKind::super || kind == EstimatorKind::uniform);
+    return instant && row.is_grid();
 }
 
 }  // namespace strata::tools::converge

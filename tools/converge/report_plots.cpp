@@ -31,29 +31,13 @@ struct Look {
     report::PlotShape shape;
 };
 
-Look look_of(scene::EstimatorKind kind) {
-    switch (kind) {
-        case scene::EstimatorKind::none:
-            return {7, report::PlotShape::dot};
-        case scene::EstimatorKind::super:
-            return {7, report::PlotShape::triangle};
-        case scene::EstimatorKind::uniform:
-            return {2, report::PlotShape::square};
-        case scene::EstimatorKind::jittered:
-            return {3, report::PlotShape::triangle};
-        case scene::EstimatorKind::stratified:
-            return {kBlack, report::PlotShape::diamond};
-        case scene::EstimatorKind::random:
-            return {4, report::PlotShape::cross};
-        case scene::EstimatorKind::sobol:
-            return {6, report::PlotShape::circle};
-        case scene::EstimatorKind::shared:
-            return {1, report::PlotShape::dot};
-        case scene::EstimatorKind::shared_sobol:
-            return {0, report::PlotShape::square};
-    }
-    return {kBlack, report::PlotShape::dot};
-}
+// In the order of the table of estimators; those that come after begin anew.
+constexpr std::array kLooks{
+    Look{7, report::PlotShape::dot},      Look{7, report::PlotShape::triangle},     Look{2, report::PlotShape::square},
+    Look{3, report::PlotShape::triangle}, Look{kBlack, report::PlotShape::diamond}, Look{4, report::PlotShape::cross},
+    Look{6, report::PlotShape::circle},   Look{1, report::PlotShape::dot},          Look{0, report::PlotShape::square}};
+
+Look look_of(scene::EstimatorKind kind) { return kLooks[static_cast<std::size_t>(kind) % kLooks.size()]; }
 
 std::string with_slope(const Series& series, const std::optional<PowerLaw>& law) {
     const std::string name(scene::name_of(series.estimator));

@@ -75,9 +75,7 @@ std::string setting_text(const Report& report) {
 }
 
 // Errors of these are the same in every render: patterns, where others have grain.
-bool is_grid(EstimatorKind kind) {
-    return kind == EstimatorKind::none || kind == EstimatorKind::super || kind == EstimatorKind::uniform;
-}
+bool is_grid(EstimatorKind kind) { return scene::row_of(kind).is_grid(); }
 
 const Series* fastest(const Report& report, int m, std::size_t target, bool grids) {
     const Series* best = nullptr;

@@ -24,7 +24,7 @@ std::string headline(const Explanation& explanation) {
     if (w != film::Rect{0, 0, film.width, film.height}) {
         text += fmt::format(", crop {},{},{},{}", w.x0, w.y0, w.x1, w.y1);
     }
-    const bool single = sampling.estimator == scene::EstimatorKind::none;
+    const bool single = scene::row_of(sampling.estimator).is_single;
     return text + fmt::format(", {}{}, {} tracer, {}, {} thread{}\n", scene::name_of(sampling.estimator),
                               single ? "" : fmt::format(" N = {} m = {}", sampling.N, sampling.m), explanation.tracer,
                               explanation.simd_target, threads, threads == 1 ? "" : "s");

@@ -42,7 +42,7 @@ std::vector<OctavePlan> plan_octaves(const scene::Scene& scene) {
         plan.amplitude = octave.amplitude;
         plan.wavelength = surface.scale / octave.frequency;
         plan.pixel_wide_at = plan.wavelength / angle;
-        if (surface.kind != scene::SurfaceKind::isosurface) {
+        if (field.base_gradient(glm::dvec3(0.0)) != glm::dvec3(0.0)) {
             plan.below_tolerance_from =
                 octave.amplitude * bounds.value * surface.scale / (scene.sampling.tolerance * angle);
         }

@@ -16,9 +16,6 @@ namespace strata::tools::explain {
 
 namespace {
 
-using scene::EstimatorKind;
-using scene::SurfaceKind;
-
 class FeatureList {
   public:
     void add(const char* name, bool needed, std::string why) { features_.push_back({name, needed, std::move(why)}); }
@@ -38,7 +35,8 @@ std::string time_reason(const scene::Scene& scene, const scene::Motion& motion) 
         return fmt::format("the shutter is open for {} s, but nothing moves: all samples at its middle",
                            scene.shutter.open_s);
     }
-    if (scene.sampling.estimator == EstimatorKind::none) return "the estimator none samples mid-shutter alone";
+    const scene::EstimatorRow& estimator = scene::row_of(scene.sampling.estimator);
+    if (estimator.is_single) return fmt::format("the estimator {} samples mid-shutter alone", estimator.name);
     return fmt::format("the shutter is open for {} s and something moves; order {}", scene.shutter.open_s,
                        scene.sampling.time_order);
 }
@@ -85,17 +83,17 @@ void add_surface(FeatureList& list, const scene::Scene& scene) {
     list.add("2-D noise", planar && has_noise,
              !has_noise ? "surface.amplitude is 0"
              : planar   ? "a terrain is a height field over (x, z)"
-                        : fmt::format("a surface of kind {} needs noise in space", name_of(surface.kind)));
+                        : fmt::format("a surface of kind {} needs noise in space", scene::name_of(surface.kind)));
     list.add("3-D noise", !planar && has_noise,
              !has_noise ? "surface.amplitude is 0"
              : planar   ? "a terrain is a height field: its noise does not depend on y"
-                        : fmt::format("a surface of kind {} has overhangs or is closed", name_of(surface.kind)));
+                        : fmt::format("a surface of kind {} has overhangs or is closed", scene::name_of(surface.kind)));
     if (!composed && octaves < surface.octaves) {
         list.add(
             "finest octaves", false,
             fmt::format("{} of {} are below the last bit of a double", surface.octaves - octaves, surface.octaves));
     }
-    list.add("ball or box", surface.kind == SurfaceKind::isosurface,
+    list.add("ball or box", solid::row_of(surface.kind).has_bound,
              "the isosurface is cut from a ball or box; hits on it need no noise for their normal",
              "only isosurfaces are cut from a ball or box");
     list.add("shadow rays", scene::needs_shadow_rays(scene), shadow_reason(scene.sun));

@@ -27,7 +27,7 @@ Values values_of(scene::Scene scene) {
         for (const scene::Key& key : section.keys) {
             // Without antialiasing neither N nor m has a part in the picture.
             const bool matters =
-                key.matters && !(scene.sampling.estimator == scene::EstimatorKind::none && section.name == "sampling" &&
+                key.matters && !(scene::row_of(scene.sampling.estimator).is_single && section.name == "sampling" &&
                                  key.name != "estimator" && key.name != "tolerance");
             values.emplace_back(key.full_name(), matters ? scene::value_text(key) : "");
         }

@@ -25,20 +25,13 @@ namespace {
 
 // A random point of the surface, the last double outside it along a line; nothing if the line misses it.
 std::optional<glm::dvec3> random_surface_point(const trace::Field& field, Random& random) {
-    const scene::Surface& s = field.surface();
-    const double height = 1.01 * field.amplitude() + 1e-9 * s.radius;
-    glm::dvec3 outside, inside;
-    if (s.kind == scene::SurfaceKind::planet) {
-        const glm::dvec3 up = unit_vector(random);
-        outside = (s.radius + height) * up;
-        inside = (s.radius - height) * up;
-    } else if (s.kind == scene::SurfaceKind::isosurface) {
-        outside = uniform(random, 0.0, 0.6) * s.bound_size.x * unit_vector(random);
-        inside = uniform(random, 0.0, 0.6) * s.bound_size.x * unit_vector(random);
-    } else {
-        outside = {uniform(random, -40.0, 40.0), height, uniform(random, -40.0, 40.0)};
-        inside = outside * glm::dvec3(1.0, -1.0, 1.0);
-    }
+    const double height = 1.01 * field.amplitude() + 1e-9 * std::abs(field.base(glm::dvec3(0.0)));
+    const double ball = field.extent().ball, wide = std::isfinite(ball) ? 0.6 * ball : 60.0;
+    const auto anywhere = [&] { return uniform(random, 0.0, wide) * unit_vector(random); };
+    const glm::dvec3 x = anywhere();
+    const bool is_level_set = field.base_gradient(x) == glm::dvec3(0.0);
+    const glm::dvec3 outside = solid::over(field.solid(), x, height);
+    const glm::dvec3 inside = is_level_set ? anywhere() : solid::over(field.solid(), x, -height);
     if (field.value(outside) <= 0.0 || field.value(inside) > 0.0) return std::nullopt;
     return surface_point(field, outside, inside);
 }

@@ -50,7 +50,7 @@ std::string RayJury::replay(const WorldRay& ray) const {
 // sum. Twice that, since both sides err: less than 2^-49 times the sizes.
 double RayJury::rounding(double size) const {
     const trace::Field& f = image_.field();
-    const double radius = f.kind() == scene::SurfaceKind::planet ? f.surface().radius : 0.0;
+    const double radius = std::abs(f.base(glm::dvec3(0.0)));
     const double octaves = static_cast<double>(f.octaves().size());
     return 0x1p-49 * (f.lipschitz() * size + radius + (octaves / 8.0 + 6.0) * f.amplitude());
 }

@@ -132,14 +132,14 @@ std::vector<Row> self_shadow(const SceneSpec& spec, const std::string& name, con
 // turns between the last point outside and the hit.
 std::vector<Row> smooth(const SceneSpec& spec, const std::string& name, const Settings& settings, Random& random) {
     const RayJury jury(spec, settings);
-    const scene::Surface& s = jury.scene().surface;
+    const trace::Field& field = jury.field();
+    const double radius = field.extent().ball;
     Worst worst;
     int points = 0, false_shadows = 0;
     for (const Decision& d : decisions(jury, random, settings.trials(20000, 1000))) {
         const glm::dvec3 x = d.seen.origin + d.hit.s * d.seen.direction;
-        const bool ball = s.kind == scene::SurfaceKind::planet;
-        const glm::dvec3 normal = ball ? glm::normalize(x) : glm::dvec3(0.0, 1.0, 0.0);
-        const double turn = ball ? (d.seen.delta0 + d.seen.delta_slope * d.hit.s) / s.radius : 0.0;
+        const glm::dvec3 normal = field.base_gradient(x);
+        const double turn = (d.seen.delta0 + d.seen.delta_slope * d.hit.s) / radius;
         if (glm::dot(normal, d.to_sun.direction) <= turn) continue;
         ++points;
         const bool shadowed = d.blocked.state != trace::HitState::miss;

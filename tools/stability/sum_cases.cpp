@@ -96,12 +96,12 @@ class Constant final : public integrate::ImageFunction {
 // the rounding to float gives the number back. Unless its weights sum to nothing that a double can hold.
 std::vector<Row> constant(const Settings& settings, Random&) {
     Worst worst;
-    for (std::size_t kind = 0; kind < scene::kEnumNames<EstimatorKind>.size(); ++kind) {
+    for (const scene::EstimatorRow& row : scene::all_estimators()) {
         for (const int m : {1, 4, 33, 100}) {
             for (const int N : {1, 2, 64}) {
-                if (settings.cancelled() || (N == 64 && (settings.fast || (m > 4 && kind >= 7)))) continue;
+                if (settings.cancelled() || (N == 64 && (settings.fast || (m > 4 && row.is_shared())))) continue;
                 estimate::EstimatorSettings chosen;
-                chosen.kind = static_cast<EstimatorKind>(kind);
+                chosen.kind = row.kind;
                 chosen.N = N;
                 chosen.m = m;
                 const estimate::Estimator estimator(chosen);
@@ -110,8 +110,8 @@ std::vector<Row> constant(const Settings& settings, Random&) {
                         render::render(Constant(radiance), estimator, {0, 0, 3, 2}, one_thread());
                     for (const glm::vec3& pixel : result.film.pixels()) {
                         worst.see(static_cast<double>(std::abs(pixel.g / radiance - 1.0f)), [&] {
-                            return fmt::format("{}, N = {}, m = {}, radiance {:.9g}: {:.9g}",
-                                               scene::kEnumNames<EstimatorKind>[kind], N, m, radiance, pixel.g);
+                            return fmt::format("{}, N = {}, m = {}, radiance {:.9g}: {:.9g}", row.name, N, m, radiance,
+                                               pixel.g);
                         });
                     }
                 }

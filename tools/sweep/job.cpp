@@ -72,7 +72,7 @@ void make_cells(const Request& request, Job& job) {
 // is the B-spline of order 1.
 scene::Scene target_of(const Cell& cell) {
     scene::Scene target = cell.picture.scene;
-    if (target.sampling.estimator == scene::EstimatorKind::super) target.sampling.m = 1;
+    if (scene::row_of(target.sampling.estimator).is_box()) target.sampling.m = 1;
     target.sampling.estimator = scene::EstimatorKind::shared_sobol;
     target.sampling.N = kMostN;
     target.film = target.film.without_colour();
@@ -91,7 +91,7 @@ struct ReferenceName {
 
 ReferenceName name_reference(const Job& job, const Cell& cell) {
     ReferenceName name;
-    if (cell.picture.scene.sampling.estimator == scene::EstimatorKind::super) {
+    if (scene::row_of(cell.picture.scene.sampling.estimator).is_box()) {
         name.file += "_box";
         name.label = "box";
     }

@@ -23,6 +23,7 @@ namespace strata::oracle {
 using Vec = std::array<double, 3>;
 
 enum class Kind { terrain, hyperterrain, planet, isosurface };
+inline constexpr std::size_t kShapeKinds = 4;
 enum class Container { none, ball, box };
 
 struct Shape {
