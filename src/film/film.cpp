@@ -15,14 +15,15 @@ std::size_t Film::finished_count() const {
     return static_cast<std::size_t>(std::count(finished_.begin(), finished_.end(), std::uint8_t{1}));
 }
 
-void Film::paste(const Film& part) {
+void Film::paste(const Film& part, int dx, int dy) {
     const Rect& w = part.window();
     for (int y = w.y0; y < w.y1; ++y) {
         for (int x = w.x0; x < w.x1; ++x) {
             if (!part.finished(x, y)) continue;
-            finish(x, y, part.at(x, y));
-            if (!costs_.empty() && !part.costs_.empty()) costs_[index(x, y)] = part.costs_[part.index(x, y)];
-            if (!weights_.empty() && !part.weights_.empty()) weights_[index(x, y)] = part.weights_[part.index(x, y)];
+            const std::size_t here = index(x + dx, y + dy), there = part.index(x, y);
+            finish(x + dx, y + dy, part.pixels_[there]);
+            if (!costs_.empty() && !part.costs_.empty()) costs_[here] = part.costs_[there];
+            if (!weights_.empty() && !part.weights_.empty()) weights_[here] = part.weights_[there];
         }
     }
 }

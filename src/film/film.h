@@ -54,8 +54,8 @@ class Film {
     const std::vector<double>& weights() const { return weights_; }
     void set_weight(int x, int y, double weight) { weights_[index(x, y)] = weight; }
 
-    // Takes over what is finished of a part, whose window lies inside this film's.
-    void paste(const Film& part);
+    // Takes over what is finished of a part, whose window lies inside this film's when it is moved by (dx,dy).
+    void paste(const Film& part, int dx = 0, int dy = 0);
 
     std::size_t bytes() const {
         return pixels_.size() * (sizeof(glm::vec3) + sizeof(std::uint8_t)) + costs_.size() * sizeof(glm::vec2) +

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "src/film/film.h"
+#include "src/film/row_keeper.h"
 
 namespace strata::film {
 
@@ -32,9 +33,10 @@ struct StripLayout {
 // those that are set aside, and every part is ended, finished or not.
 class RowStream {
   public:
-    // parts: of each strip. At most `most_open` strips are held at once, beside what is set aside.
+    // parts: of each strip. At most `most_open` strips are held at once, beside what is set aside. `keeper` may be
+    // null: none.
     RowStream(const StripLayout& layout, std::vector<int> parts, int most_open, const FilmExtras& extras,
-              StripSink sink);
+              StripSink sink, RowKeeper* keeper = nullptr);
 
     const StripLayout& layout() const { return layout_; }
 
@@ -44,8 +46,15 @@ class RowStream {
     // Sets a film aside, to be put into the strip when it is whole.
     void set_aside(int number, Film film);
 
-    // Ends a part and gives away all strips that are whole and next; returns the CPU time that this took.
+    // A rectangle of a strip that is open has been finished, for the keeper.
+    void note_finished(int number, const Rect& part);
+
+    // Ends a part, gives away all strips that are whole and next, and hands over to the keeper what is due; returns the
+    // CPU time that this took.
     double end_part(int number);
+
+    // The last of the three alone.
+    double keep_if_due();
 
     // When all parts are ended: throws what the sink threw, after which it was not called any more.
     void check() const;
@@ -53,7 +62,19 @@ class RowStream {
     std::size_t most_bytes() const { return most_bytes_; }  // of films held at once
 
   private:
+    struct Strip {
+        Film film;
+        std::vector<Rect> fresh;  // finished, and not handed over to the keeper
+    };
+    struct Aside {
+        Film film;
+        bool is_fresh = true;
+    };
+
+    double give_and_keep(std::unique_lock<std::mutex> lock);
     void give_away(int number);
+    void keep_in_work(std::unique_lock<std::mutex>& lock);
+    Strip& open_strip(std::unique_lock<std::mutex>& lock, int number);
     void hold(const Film& film);
     void release(const Film& film);
 
@@ -61,14 +82,15 @@ class RowStream {
     int most_open_;
     FilmExtras extras_;
     StripSink sink_;
+    RowKeeper* keeper_;
 
     mutable std::mutex mutex_;  // guards all below; not held while a sink is at work
     std::condition_variable gone_;
-    std::map<int, Film> open_;
-    std::multimap<int, Film> aside_;
+    std::map<int, Strip> open_;
+    std::multimap<int, Aside> aside_;
     std::vector<int> parts_left_;
-    int next_ = 0;  // to be given away
-    bool is_giving_ = false;
+    int next_ = 0;            // to be given away
+    bool is_giving_ = false;  // a thread is: it alone takes films away, and talks to the keeper
     std::exception_ptr failure_;
     std::int64_t finished_pixels_ = 0;
     std::size_t bytes_ = 0, most_bytes_ = 0;

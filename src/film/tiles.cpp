@@ -4,12 +4,6 @@
 
 namespace strata::film {
 
-namespace {
-
-std::int64_t divide_up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
-
-}  // namespace
-
 TileGrid::TileGrid(const Rect& window, int side)
     : window_(window),
       side_(side),

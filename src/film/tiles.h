@@ -7,6 +7,9 @@
 
 namespace strata::film {
 
+// a / b, rounded up; b > 0.
+constexpr std::int64_t divide_up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
+
 class TileGrid {
   public:
     // side >= 1; tiles at the right and lower border are cut.

@@ -28,6 +28,9 @@ class ProgressMeter {
     // To be called a tile at a time, not a sample.
     void add(std::int64_t work, std::int64_t rays);
 
+    // Work that needs not be done after all. Before any is.
+    void leave_out(std::int64_t work) { total_work_ -= work; }
+
     double seconds() const;
 
   private:

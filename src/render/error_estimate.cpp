@@ -32,29 +32,29 @@ void ErrorMeter::add_pair(const film::Film& a, const film::Film& b, const PassSu
         squares += glm::dot(d, d);
     }
     const double variance = squares / (2 * 3 * static_cast<double>(sum.pixels()));
-    ++pairs_;
-    const double deviation = variance - mean_;
-    mean_ += deviation / pairs_;
-    squares_ += deviation * (variance - mean_);
+    ++state_.pairs;
+    const double deviation = variance - state_.mean;
+    state_.mean += deviation / state_.pairs;
+    state_.squares += deviation * (variance - state_.mean);
     if (sum.weighted()) add_moments(a, b);
 }
 
 void ErrorMeter::add_moments(const film::Film& a, const film::Film& b) {
-    moments_.resize(a.pixels().size(), glm::vec4(0));
-    for (std::size_t i = 0; i < moments_.size(); ++i) {
+    state_.moments.resize(a.pixels().size(), glm::vec4(0));
+    for (std::size_t i = 0; i < state_.moments.size(); ++i) {
         const double weight_a = a.weights()[i], weight_b = b.weights()[i];
         const double d_weight = weight_a - weight_b;
         const glm::dvec3 d_sum = weight_a * glm::dvec3(a.pixels()[i]) - weight_b * glm::dvec3(b.pixels()[i]);
-        moments_[i] += glm::vec4(glm::dvec4(d_sum * d_weight, d_weight * d_weight));
+        state_.moments[i] += glm::vec4(glm::dvec4(d_sum * d_weight, d_weight * d_weight));
     }
 }
 
 double ErrorMeter::squared_bias(const PassSum& sum) const {
     double squares = 0;
-    for (std::size_t i = 0; i < moments_.size(); ++i) {
-        const glm::dvec4 moments(moments_[i]);
+    for (std::size_t i = 0; i < state_.moments.size(); ++i) {
+        const glm::dvec4 moments(state_.moments[i]);
         const double weight = sum.mean_weight(i);
-        const double scale = 2.0 * pairs_ * sum.passes() * weight * weight;
+        const double scale = 2.0 * state_.pairs * sum.passes() * weight * weight;
         if (!(scale > 0)) continue;  // weights that vanish are all alike
         const glm::dvec3 bias = (sum.mean(i) * moments.w - glm::dvec3(moments)) / scale;
         squares += glm::dot(bias, bias);
@@ -63,15 +63,15 @@ double ErrorMeter::squared_bias(const PassSum& sum) const {
 }
 
 std::optional<ErrorEstimate> ErrorMeter::of(const PassSum& sum) const {
-    if (pairs_ == 0) return std::nullopt;
+    if (state_.pairs == 0) return std::nullopt;
     const double passes = sum.passes(), bias = squared_bias(sum);
-    ErrorEstimate estimate{std::sqrt(mean_ / passes + bias), 0, std::numeric_limits<double>::infinity(),
+    ErrorEstimate estimate{std::sqrt(state_.mean / passes + bias), 0, std::numeric_limits<double>::infinity(),
                            std::sqrt(bias)};
-    if (pairs_ == 1) return estimate;
-    const double spread = std::sqrt(squares_ / (pairs_ - 1) * (1 + 1.0 / pairs_));
-    const double half_width = student_quantile(kOneSidedConfidence, pairs_ - 1) * spread;
-    estimate.low = std::sqrt(std::max(0.0, mean_ - half_width) / passes);
-    estimate.high = std::sqrt((mean_ + half_width) / passes + bias);
+    if (state_.pairs == 1) return estimate;
+    const double spread = std::sqrt(state_.squares / (state_.pairs - 1) * (1 + 1.0 / state_.pairs));
+    const double half_width = student_quantile(kOneSidedConfidence, state_.pairs - 1) * spread;
+    estimate.low = std::sqrt(std::max(0.0, state_.mean - half_width) / passes);
+    estimate.high = std::sqrt((state_.mean + half_width) / passes + bias);
     return estimate;
 }
 

@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "src/film/film.h"
@@ -37,10 +38,22 @@ struct ErrorEstimate {
 // pass; the covariance of a pair's differences is twice that.
 class ErrorMeter {
   public:
+    // What pairs of passes have added up to.
+    struct State {
+        int pairs = 0;
+        double mean = 0;                 // of the pairs' estimates of s^2
+        double squares = 0;              // sum of their squared deviations from it
+        std::vector<glm::vec4> moments;  // sums over pairs of dA dW, and of dW^2; empty: weights are alike
+    };
+
+    ErrorMeter() = default;
+    explicit ErrorMeter(State state) : state_(std::move(state)) {}
+    const State& state() const { return state_; }
+
     // Two passes, the last that went into the sum.
     void add_pair(const film::Film& a, const film::Film& b, const PassSum& sum);
 
-    int pairs() const { return pairs_; }
+    int pairs() const { return state_.pairs; }
 
     // Of the sum; nothing before the first pair.
     std::optional<ErrorEstimate> of(const PassSum& sum) const;
@@ -49,10 +62,7 @@ class ErrorMeter {
     void add_moments(const film::Film& a, const film::Film& b);
     double squared_bias(const PassSum& sum) const;
 
-    int pairs_ = 0;
-    double mean_ = 0;                 // of the pairs' estimates of s^2
-    double squares_ = 0;              // sum of their squared deviations from it
-    std::vector<glm::vec4> moments_;  // sums over pairs of dA dW, and of dW^2; empty: weights are alike
+    State state_;
 };
 
 }  // namespace strata::render

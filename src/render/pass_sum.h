@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "src/film/film.h"
@@ -18,7 +20,17 @@ class PassSum {
     // A complete film of the same window as those before. Weights are the film's; all passes have them or none.
     void add(const film::Film& pass);
 
+    // As another one was that had added up so many passes.
+    PassSum(int passes, std::vector<glm::dvec3> sums, std::vector<double> weights)
+        : passes_(passes), sum_(std::move(sums)), weight_(std::move(weights)) {}
+    PassSum() = default;
+
     int passes() const { return passes_; }
+
+    // Of each pixel, over the passes: weighted radiance, and weights (none: every pass counts by 1).
+    std::span<const glm::dvec3> sums() const { return sum_; }
+    std::span<const double> weights() const { return weight_; }
+
     std::size_t pixels() const { return sum_.size(); }
     bool weighted() const { return !weight_.empty(); }
 

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "src/render/error_estimate.h"
+#include "src/render/pass_keeper.h"
 #include "src/render/render.h"
 
 namespace strata::render {
@@ -50,9 +51,12 @@ bool passes_differ(scene::EstimatorKind kind);
 int bytes_a_pixel_of_passes(const estimate::Estimator& estimator);
 
 // Throws std::invalid_argument for what render() refuses, and for more than one pass where passes do not differ.
-// on_progress tells of the whole: of the predicted passes, or of the time limit where that comes first.
+// on_progress tells of the whole: of the predicted passes, or of the time limit where that comes first. A keeper, which
+// may be null, takes the place of options.keeper: what it restores counts as rendered, its seconds for the time limit
+// too.
 ProgressiveResult render_progressively(const integrate::ImageFunction& image,
                                        const estimate::EstimatorSettings& settings, const film::Rect& window,
-                                       const PassGoal& goal, const RenderOptions& options = {});
+                                       const PassGoal& goal, const RenderOptions& options = {},
+                                       PassKeeper* keeper = nullptr);
 
 }  // namespace strata::render

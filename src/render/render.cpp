@@ -7,9 +7,32 @@
 
 namespace strata::render {
 
+void check_renderable(const film::Rect& window, const RenderOptions& options) {
+    if (window.width() <= 0 || window.height() <= 0) throw std::invalid_argument("the window to render is empty");
+    if (options.tile < 1) throw std::invalid_argument("a tile's side is at least 1");
+    if (options.shard != nullptr && options.shard->window() != window) {
+        throw std::invalid_argument("the window to render is not that of the shard");
+    }
+}
+
 namespace {
 
-constexpr int kWholeFilmStrip = 64;
+// Pixels, or cells where samples are shared.
+std::int64_t owners_of(const film::Rect& window, const estimate::Estimator& estimator) {
+    const film::Rect owners = estimator.shared() ? cells_of(window, estimator) : window;
+    return std::int64_t{1} * owners.width() * owners.height();
+}
+
+std::int64_t total_owners(const film::Rect& window, const estimate::Estimator& estimator,
+                          const RenderOptions& options) {
+    if (options.shard == nullptr) return owners_of(window, estimator);
+    std::int64_t total = 0;
+    for (std::int64_t i = 0; i < options.shard->slots(); ++i) {
+        const film::Rect block = options.shard->block(i);
+        if (block.width() > 0) total += owners_of(block, estimator);
+    }
+    return total;
+}
 
 }  // namespace
 
@@ -37,11 +60,9 @@ RenderResult render(const integrate::ImageFunction& image, const estimate::Estim
 RenderResult render_strips(const integrate::ImageFunction& image, const estimate::Estimator& estimator,
                            const film::Rect& window, const RenderOptions& options, int strip_rows,
                            film::StripSink sink) {
-    if (window.width() <= 0 || window.height() <= 0) throw std::invalid_argument("the window to render is empty");
-    if (options.tile < 1) throw std::invalid_argument("a tile's side is at least 1");
+    check_renderable(window, options);
     if (strip_rows < 1) throw std::invalid_argument("a strip has at least one row");
-    const film::Rect owners = estimator.shared() ? cells_of(window, estimator) : window;
-    RenderContext context(image, estimator, options, std::int64_t{1} * owners.width() * owners.height());
+    RenderContext context(image, estimator, options, total_owners(window, estimator, options));
     const film::StripLayout layout{window, strip_rows};
     RenderResult result;
     if (estimator.shared()) {

@@ -3,7 +3,9 @@
 
 #include "src/estimate/estimator.h"
 #include "src/film/film.h"
+#include "src/film/row_keeper.h"
 #include "src/film/row_stream.h"
+#include "src/film/shard.h"
 #include "src/integrate/image_function.h"
 #include "src/parallel/cancel.h"
 #include "src/parallel/progress.h"
@@ -16,6 +18,8 @@ struct RenderOptions {
     parallel::ProgressCallback on_progress;         // may be empty; called from any thread, one call at a time
     const parallel::CancelToken* cancel = nullptr;  // looked at between batches
     bool with_costs = false;                        // films hold what pixels cost
+    film::RowKeeper* keeper = nullptr;  // of pixels that an earlier process finished, and of those that this one does
+    const film::ShardPicture* shard = nullptr;  // render this part, whose window is the one to be rendered; null: all
     bool with_weights = false;  // films hold pixels' sums of weights, where these differ from seed to seed
 };
 
@@ -31,7 +35,7 @@ struct RenderResult {
 };
 
 // Renders pixels [x0,x1) x [y0,y1) of the frame; the frame itself has no part in it, and the window may be anywhere.
-// Throws std::invalid_argument for an empty window or a tile below 1.
+// Throws std::invalid_argument for an empty window, a tile below 1, or another window than options.shard has.
 RenderResult render(const integrate::ImageFunction& image, const estimate::Estimator& estimator,
                     const film::Rect& window, const RenderOptions& options = {});
 

@@ -37,6 +37,9 @@ class RenderContext {
     // Of the samples of worker.owners[owner], which were evaluated with costs.
     glm::vec2 mean_cost(const Worker& worker, std::size_t owner) const;
 
+    // Whether these pixels of one strip need not be rendered.
+    bool is_kept(const film::Rect& part) const { return options.keeper != nullptr && options.keeper->has(part); }
+
     // As many owners as fill a batch, at least one.
     std::size_t owners_a_batch() const;
 
@@ -60,6 +63,12 @@ void render_tiles(RenderContext& context, const film::StripLayout& layout, film:
 
 // Estimators whose samples belong to a screen cell and count in many pixels.
 void render_shared(RenderContext& context, const film::StripLayout& layout, film::StripSink sink, RenderResult& result);
+
+// Rows of the strips of a picture that is held whole.
+inline constexpr int kWholeFilmStrip = 64;
+
+// As render() refuses.
+void check_renderable(const film::Rect& window, const RenderOptions& options);
 
 // What the films of such a render hold.
 film::FilmExtras film_extras(const RenderOptions& options, const estimate::Estimator& estimator);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/estimate/render_accumulators.h"
+#include "src/render/fill_slot.h"
 #include "src/render/render_context.h"
 
 namespace strata::render {
@@ -18,7 +19,8 @@ constexpr int kStripColumns = 64;
 
 class SharedRender {
   public:
-    SharedRender(RenderContext& context, const film::StripLayout& layout, film::StripSink sink);
+    SharedRender(RenderContext& context, const film::StripLayout& layout, film::StripSink sink,
+                 film::RowKeeper* keeper);
 
     void render();
 
@@ -39,11 +41,14 @@ class SharedRender {
     void add_up(const Run& run);
     void add_to_strip(const Run& run, int x0, int x1);
     void finish_rows(int rows_end, int x0, int x1);
+    void note_rows(int rows_end);
+    template <class Action>
+    void for_each_strip(int rows_end, const Action& action);
     int finished_rows_end(const Run& run) const;
 
     RenderContext& context_;
     film::RowStream film_;
-    const film::Rect& window_;
+    film::Rect window_;  // of the rows that are left to be rendered
     film::Rect cells_;
     int reach_;
     std::size_t samples_a_cell_;
@@ -67,13 +72,23 @@ int most_open(const film::StripLayout& layout, int reach) {
     return 2 * ((static_cast<int>(kRunRows) + 2 * reach) / layout.rows + 2);
 }
 
-SharedRender::SharedRender(RenderContext& context, const film::StripLayout& layout, film::StripSink sink)
+// Rows at the top that an earlier process finished are left out: what lies below is the same picture as a crop, to the
+// last bit. Single rows further down are rendered again.
+film::Rect rows_left(const film::RowKeeper* keeper, const film::Rect& window) {
+    film::Rect left = window;
+    if (keeper == nullptr) return left;
+    while (left.y0 < left.y1 && keeper->has({left.x0, left.y0, left.x1, left.y0 + 1})) ++left.y0;
+    return left;
+}
+
+SharedRender::SharedRender(RenderContext& context, const film::StripLayout& layout, film::StripSink sink,
+                           film::RowKeeper* keeper)
     : context_(context),
       film_(layout, std::vector<int>(static_cast<std::size_t>(layout.count()), 1),
             most_open(layout, context.estimator.weights().reach()), film_extras(context.options, context.estimator),
-            std::move(sink)),
-      window_(film_.layout().window),
-      cells_(cells_of(window_, context.estimator)),
+            std::move(sink), keeper),
+      window_(rows_left(keeper, layout.window)),
+      cells_(window_.height() == 0 ? window_ : cells_of(window_, context.estimator)),
       reach_(context.estimator.weights().reach()),
       samples_a_cell_(static_cast<std::size_t>(context.estimator.sample_count())),
       cells_a_run_(cells_in_a_run(cells_, samples_a_cell_)),
@@ -102,6 +117,8 @@ estimate::CellSamples SharedRender::samples_of(std::int64_t index, const Run& ru
 
 void SharedRender::render() {
     const std::int64_t total = std::int64_t{1} * cells_.width() * cells_.height();
+    const film::Rect all = cells_of(film_.layout().window, context_.estimator);
+    context_.progress.leave_out(std::int64_t{1} * all.width() * all.height() - total);
     for (std::int64_t first = 0; first < total && !context_.cancelled(); first += cells_a_run_) {
         const Run run{first, std::min(first + cells_a_run_, total)};
         evaluate(run);
@@ -113,6 +130,7 @@ void SharedRender::render() {
 
 void SharedRender::give_away(Worker& worker, int strips_end) {
     for (; given_end_ < strips_end; ++given_end_) worker.cpu_seconds -= film_.end_part(given_end_);
+    worker.cpu_seconds -= film_.keep_if_due();
 }
 
 void SharedRender::evaluate(const Run& run) {
@@ -164,16 +182,30 @@ void SharedRender::add_up(const Run& run) {
         add_to_strip(run, x0, x1);
         if (!context_.cancelled()) finish_rows(finished_end, x0, x1);
     });
+    if (!context_.cancelled()) note_rows(finished_end);
     finished_end_ = finished_end;
 }
 
-void SharedRender::finish_rows(int rows_end, int x0, int x1) {
+// Of the rows from finished_end_ on: action(strip, first row, last row).
+template <class Action>
+void SharedRender::for_each_strip(int rows_end, const Action& action) {
     for (int y = finished_end_; y < rows_end;) {
         const int strip = film_.layout().strip_at(y);
         const int end = std::min(rows_end, film_.layout().strip(strip).y1);
-        accumulators_.finish(y, end, x0, x1, film_.open(strip));
+        action(strip, y, end);
         y = end;
     }
+}
+
+void SharedRender::finish_rows(int rows_end, int x0, int x1) {
+    for_each_strip(rows_end,
+                   [&](int strip, int begin, int end) { accumulators_.finish(begin, end, x0, x1, film_.open(strip)); });
+}
+
+void SharedRender::note_rows(int rows_end) {
+    for_each_strip(rows_end, [&](int strip, int begin, int end) {
+        film_.note_finished(strip, {window_.x0, begin, window_.x1, end});
+    });
 }
 
 void SharedRender::add_to_strip(const Run& run, int x0, int x1) {
@@ -191,9 +223,44 @@ void SharedRender::add_to_strip(const Run& run, int x0, int x1) {
 
 }  // namespace
 
+namespace {
+
+film::Film render_block(RenderContext& context, const film::Rect& block) {
+    film::Film film(block, film_extras(context.options, context.estimator));
+    SharedRender shared(
+        context, {block, film::kShardBlock}, [&](const film::Film& strip) { film.paste(strip); }, nullptr);
+    shared.render();
+    shared.film().check();
+    return film;
+}
+
+// Blocks of a shard are pictures of their own, one after the other: cells around each are evaluated for it alone.
+void render_shared_shard(RenderContext& context, const film::StripLayout& layout, film::StripSink sink,
+                         RenderResult& result) {
+    const film::ShardPicture& shard = *context.options.shard;
+    const auto slots_a_row = static_cast<int>(shard.slots_a_row());
+    film::RowStream film(layout, std::vector<int>(static_cast<std::size_t>(layout.count()), slots_a_row), 1,
+                         film_extras(context.options, context.estimator), std::move(sink), context.options.keeper);
+    for (std::int64_t i = 0; i < shard.slots(); ++i) {
+        const auto strip = static_cast<int>(i / slots_a_row);
+        const film::Rect slot = shard.slot(i);
+        const auto render = [&](const film::Rect& block) { return render_block(context, block); };
+        if (!context.is_kept(slot) && !context.cancelled() && fill_slot(shard, i, film.open(strip), render)) {
+            film.note_finished(strip, slot);
+        }
+        film.end_part(strip);
+    }
+    film.check();
+    result.finished_pixels = film.finished_pixels();
+    result.most_film_bytes = film.most_bytes();
+}
+
+}  // namespace
+
 void render_shared(RenderContext& context, const film::StripLayout& layout, film::StripSink sink,
                    RenderResult& result) {
-    SharedRender shared(context, layout, std::move(sink));
+    if (context.options.shard != nullptr) return render_shared_shard(context, layout, std::move(sink), result);
+    SharedRender shared(context, layout, std::move(sink), context.options.keeper);
     shared.render();
     shared.film().check();
     result.finished_pixels = shared.film().finished_pixels();

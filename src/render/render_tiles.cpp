@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "src/film/tiles.h"
+#include "src/render/fill_slot.h"
 #include "src/render/render_context.h"
 
 namespace strata::render {
@@ -52,16 +53,17 @@ bool render_pixels(RenderContext& context, Worker& worker, film::Film& film) {
     return true;
 }
 
-void render_tile(RenderContext& context, Worker& worker, const film::Rect& tile, film::Film& film) {
+// False if cancelled.
+bool render_tile(RenderContext& context, Worker& worker, const film::Rect& tile, film::Film& film) {
     const std::size_t batch = context.owners_a_batch();
     worker.owners.clear();
     for (int y = tile.y0; y < tile.y1; ++y) {
         for (int x = tile.x0; x < tile.x1; ++x) {
             worker.owners.emplace_back(x, y);
-            if (worker.owners.size() == batch && !render_pixels(context, worker, film)) return;
+            if (worker.owners.size() == batch && !render_pixels(context, worker, film)) return false;
         }
     }
-    if (!worker.owners.empty()) render_pixels(context, worker, film);
+    return worker.owners.empty() || render_pixels(context, worker, film);
 }
 
 // Pixels of the tiles that are rendered ahead of their strip, 16 bytes of memory each.
@@ -74,16 +76,50 @@ int most_open(int threads, std::int64_t tiles_a_strip) {
     return static_cast<int>(std::max<std::int64_t>(kLeast, strips));
 }
 
+// What a strip is rendered in: tiles of the picture, or the slots of a shard, whose pixels are elsewhere in the
+// picture.
+class StripParts {
+  public:
+    StripParts(const film::StripLayout& layout, const RenderOptions& options)
+        : layout_(layout), tile_(options.tile), shard_(options.shard) {}
+
+    std::int64_t count(int strip) const { return shard_ != nullptr ? shard_->slots_a_row() : tiles(strip).count(); }
+    film::Rect part(int strip, std::int64_t index) const {
+        return shard_ != nullptr ? shard_->slot(slot(strip, index)) : tiles(strip).tile(index);
+    }
+
+    // False if cancelled. `film` holds the part.
+    bool render(RenderContext& context, Worker& worker, int strip, std::int64_t index, film::Film& film) const;
+
+  private:
+    film::TileGrid tiles(int strip) const { return film::TileGrid(layout_.strip(strip), tile_); }
+    std::int64_t slot(int strip, std::int64_t index) const { return strip * shard_->slots_a_row() + index; }
+
+    const film::StripLayout& layout_;
+    int tile_;
+    const film::ShardPicture* shard_;
+};
+
+bool StripParts::render(RenderContext& context, Worker& worker, int strip, std::int64_t index, film::Film& film) const {
+    if (shard_ == nullptr) return render_tile(context, worker, part(strip, index), film);
+    return fill_slot(*shard_, slot(strip, index), film, [&](const film::Rect& block) {
+        film::Film own(block, film_extras(context.options, context.estimator));
+        render_tile(context, worker, block, own);
+        return own;
+    });
+}
+
 // The tiles of all strips, one strip's after the other's.
 class TiledStrips {
   public:
     TiledStrips(RenderContext& context, const film::StripLayout& layout, film::StripSink sink)
         : context_(context),
-          tiles_a_strip_(tiles(layout, 0).count()),
-          total_(tiles_a_strip_ * (layout.count() - 1) + tiles(layout, layout.count() - 1).count()),
+          strip_parts_(layout, context.options),
+          tiles_a_strip_(strip_parts_.count(0)),
+          total_(tiles_a_strip_ * (layout.count() - 1) + strip_parts_.count(layout.count() - 1)),
           film_(layout, parts(layout), most_open(context.threads(), tiles_a_strip_),
-                film_extras(context.options, context.estimator), std::move(sink)) {
-        const film::Rect first = tiles(layout, 0).tile(0);
+                film_extras(context.options, context.estimator), std::move(sink), context.options.keeper) {
+        const film::Rect first = strip_parts_.part(0, 0);
         most_ahead_ = std::clamp<std::int64_t>(kPixelsAhead / (std::int64_t{1} * first.width() * first.height()), 1,
                                                film::kSpreadTiles);
     }
@@ -93,14 +129,13 @@ class TiledStrips {
     const film::RowStream& film() const { return film_; }
 
   private:
-    film::TileGrid tiles(const film::StripLayout& layout, int strip) const {
-        return film::TileGrid(layout.strip(strip), context_.options.tile);
-    }
     std::vector<int> parts(const film::StripLayout& layout) const;
-    void render_in_order(Worker& worker, int strip, const film::Rect& tile);
-    void render_ahead(Worker& worker, int strip, const film::Rect& tile);
+    void leave_out_kept();
+    void render_in_order(Worker& worker, int strip, std::int64_t index);
+    void render_ahead(Worker& worker, int strip, std::int64_t index);
 
     RenderContext& context_;
+    StripParts strip_parts_;
     std::int64_t tiles_a_strip_;  // but in the last strip, which may be lower
     std::int64_t total_;
     std::int64_t most_ahead_ = 1;
@@ -111,7 +146,7 @@ std::vector<int> TiledStrips::parts(const film::StripLayout& layout) const {
     std::vector<int> parts;
     parts.reserve(static_cast<std::size_t>(layout.count()));
     for (int strip = 0; strip < layout.count(); ++strip) {
-        parts.push_back(static_cast<int>(tiles(layout, strip).count()));
+        parts.push_back(static_cast<int>(strip_parts_.count(strip)));
     }
     return parts;
 }
@@ -130,29 +165,43 @@ class PartScope {
     Worker& worker_;
 };
 
-void TiledStrips::render_in_order(Worker& worker, int strip, const film::Rect& tile) {
+void TiledStrips::render_in_order(Worker& worker, int strip, std::int64_t index) {
     const PartScope part(film_, strip, worker);
-    if (!context_.cancelled()) render_tile(context_, worker, tile, film_.open(strip));
+    const film::Rect tile = strip_parts_.part(strip, index);
+    if (context_.is_kept(tile) || context_.cancelled()) return;
+    if (strip_parts_.render(context_, worker, strip, index, film_.open(strip))) film_.note_finished(strip, tile);
 }
 
-void TiledStrips::render_ahead(Worker& worker, int strip, const film::Rect& tile) {
+void TiledStrips::render_ahead(Worker& worker, int strip, std::int64_t index) {
     const PartScope part(film_, strip, worker);
-    if (context_.cancelled()) return;
+    const film::Rect tile = strip_parts_.part(strip, index);
+    if (context_.is_kept(tile) || context_.cancelled()) return;
     film::Film film(tile, film_extras(context_.options, context_.estimator));
-    render_tile(context_, worker, tile, film);
+    strip_parts_.render(context_, worker, strip, index, film);
     film_.set_aside(strip, std::move(film));
 }
 
+// So that the time that is predicted is that of what is left to be done.
+void TiledStrips::leave_out_kept() {
+    if (context_.options.keeper == nullptr) return;
+    for (int strip = 0; strip < film_.layout().count(); ++strip) {
+        for (std::int64_t i = 0; i < strip_parts_.count(strip); ++i) {
+            const film::Rect tile = strip_parts_.part(strip, i);
+            if (context_.is_kept(tile)) context_.progress.leave_out(std::int64_t{1} * tile.width() * tile.height());
+        }
+    }
+}
+
 void TiledStrips::render() {
+    leave_out_kept();
     const std::int64_t ahead = film::spread_count(total_, most_ahead_);
     context_.run(total_, [&](Worker& worker, std::int64_t position) {
         const std::int64_t index = film::spread_first(position, total_, most_ahead_);
         const int strip = static_cast<int>(index / tiles_a_strip_);
-        const film::Rect tile = tiles(film_.layout(), strip).tile(index % tiles_a_strip_);
         if (position < ahead) {
-            render_ahead(worker, strip, tile);
+            render_ahead(worker, strip, index % tiles_a_strip_);
         } else {
-            render_in_order(worker, strip, tile);
+            render_in_order(worker, strip, index % tiles_a_strip_);
         }
     });
 }
