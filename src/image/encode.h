@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,11 @@ struct WriteOptions {
     bool keeps_not_finite = false;                   // in an EXR in floating point: of a picture of another program
     std::function<void(const std::string&)> warn{};  // of what a whole file lost: radiance beyond the largest half
 };
+
+// Is given the codes that a strip of rows has become in a PNG, JPEG (bytes) or TIFF (numbers of 16 bits, in the
+// machine's order), three a pixel, before they are written, and may change them. Not called for a strip that is not
+// finite.
+using CodesHook = std::function<void(std::span<unsigned char> codes)>;
 
 // Rows encoded at once: a multiple of the 16 that EXR's zip packs together and of the 64 of its tiles, and little
 // memory beside a whole picture.

@@ -8,17 +8,15 @@
 #include <limits>
 
 #include "src/image/colour_out.h"
-#include "src/image/dither.h"
 #include "src/image/image_error.h"
 #include "src/image/library.h"
 #include "src/image/library_noise.h"
 #include "src/image/picture_spec.h"
 #include "src/image/png_text.h"
+#include "src/image/samples.h"
 
 namespace strata::image {
 namespace {
-
-constexpr float kMaxHalf = 65504.0f;
 
 void check_shape(const std::filesystem::path& path, const PictureShape& p) {
     const bool inside =
@@ -27,33 +25,6 @@ void check_shape(const std::filesystem::path& path, const PictureShape& p) {
         fail_to_write(path, fmt::format("the crop {},{},{},{} is empty or outside the {}x{} frame", p.x0, p.y0, p.x1,
                                         p.y1, p.frame_width, p.frame_height));
     check_size(path, p.width(), p.height());
-}
-
-// The nearest code of 16 bits.
-std::vector<std::uint16_t> quantise(std::span<const float> linear, const ColourOut& colour) {
-    constexpr double kTop = std::numeric_limits<std::uint16_t>::max();
-    const ColourEncoder encode(colour);
-    std::vector<std::uint16_t> codes;
-    codes.reserve(linear.size());
-    for (std::size_t i = 0; i < linear.size(); i += 3) {
-        const glm::dvec3 encoded = encode(&linear[i]);
-        for (int c = 0; c < 3; ++c) codes.push_back(static_cast<std::uint16_t>(std::lround(encoded[c] * kTop)));
-    }
-    return codes;
-}
-
-// Codes of 8 bits, dithered by the pixels' places in the frame: rows of `width` pixels, the first at (x0,y0).
-std::vector<std::uint8_t> dither(std::span<const float> linear, const ColourOut& colour, int x0, int y0, int width) {
-    const ColourEncoder encode(colour);
-    std::vector<std::uint8_t> codes;
-    codes.reserve(linear.size());
-    const std::size_t row = 3 * static_cast<std::size_t>(width);
-    for (std::size_t i = 0; i < linear.size(); i += 3) {
-        const int x = x0 + static_cast<int>(i % row / 3), y = y0 + static_cast<int>(i / row);
-        const glm::dvec3 encoded = encode(&linear[i]);
-        for (int c = 0; c < 3; ++c) codes.push_back(static_cast<std::uint8_t>(dithered_code(encoded[c], x, y)));
-    }
-    return codes;
 }
 
 std::vector<float> clamp_to_half(std::span<const float> linear) {
@@ -138,7 +109,7 @@ void Encoder::write(OIIO::TypeDesc type, const void* values, int rows) {
     if (!written) fail_to_write(path_, output_->geterror());
 }
 
-void Encoder::write_linear(std::span<const float> rgb, std::span<const float> extra) {
+void Encoder::write_linear(std::span<const float> rgb, std::span<const float> extra, const CodesHook& on_codes) {
     const int rows = rows_of(rgb.size());
     count_not_finite(rgb);
     const int y = shape_.y0 + next_row_;
@@ -151,13 +122,18 @@ void Encoder::write_linear(std::span<const float> rgb, std::span<const float> ex
         case Format::exr:
             return write_exr(rgb, extra, rows);
         case Format::tiff:
-            return write(OIIO::TypeDesc::UINT16, quantise(rgb, options_.colour).data(), rows);
+            return write_coded(codes_of_16_bits(rgb, options_.colour), OIIO::TypeDesc::UINT16, rows, on_codes);
         case Format::png:
         case Format::jpeg:
-            break;
+            return write_coded(codes_of_8_bits(rgb, options_.colour, shape_.x0, y, shape_.width()),
+                               OIIO::TypeDesc::UINT8, rows, on_codes);
     }
-    const std::vector<std::uint8_t> codes = dither(rgb, options_.colour, shape_.x0, y, shape_.width());
-    write(OIIO::TypeDesc::UINT8, codes.data(), rows);
+}
+
+template <class Code>
+void Encoder::write_coded(std::vector<Code> codes, OIIO::TypeDesc type, int rows, const CodesHook& on_codes) {
+    if (on_codes) on_codes({reinterpret_cast<unsigned char*>(codes.data()), codes.size() * sizeof(Code)});
+    write(type, codes.data(), rows);
 }
 
 void Encoder::write_exr(std::span<const float> rgb, std::span<const float> extra, int rows) {

@@ -24,7 +24,7 @@ class Encoder {
     int rows_left() const { return shape_.height() - next_row_; }
 
     // Linear radiance; where it is not finite finish() will throw.
-    void write_linear(std::span<const float> rgb, std::span<const float> extra = {});
+    void write_linear(std::span<const float> rgb, std::span<const float> extra = {}, const CodesHook& on_codes = {});
 
     // sRGB codes in [0,1].
     void write_codes(std::span<const float> rgb);
@@ -46,6 +46,8 @@ class Encoder {
     void write(OIIO::TypeDesc type, const void* values, int rows);
     int rows_of(std::size_t values) const;
     std::size_t channels() const { return static_cast<std::size_t>(output_->spec().nchannels); }
+    template <class Code>
+    void write_coded(std::vector<Code> codes, OIIO::TypeDesc type, int rows, const CodesHook& on_codes);
     void write_exr(std::span<const float> rgb, std::span<const float> extra, int rows);
     void count_not_finite(std::span<const float> rgb);
     void count_clipped(std::span<const float> rgb);

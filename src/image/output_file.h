@@ -46,6 +46,11 @@ class OutputFile {
     // What was asked for.
     const std::filesystem::path& target() const { return target_; }
 
+    // Its hidden file; nothing of a stream.
+    std::optional<std::filesystem::path> scratch_path() const {
+        return scratch_ ? std::optional(scratch_->path()) : std::nullopt;
+    }
+
     // What is written meanwhile, by a name that stays right when its folder is moved.
     std::filesystem::path hidden_path() const;
 

@@ -144,8 +144,8 @@ PictureStream::~PictureStream() {
     }
 }
 
-void PictureStream::write(std::span<const float> rgb, std::span<const float> extra) {
-    state_->encoder.write_linear(rgb, extra);
+void PictureStream::write(std::span<const float> rgb, std::span<const float> extra, const CodesHook& on_codes) {
+    state_->encoder.write_linear(rgb, extra, on_codes);
     state_->bytes.flush_or_throw();
 }
 

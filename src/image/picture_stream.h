@@ -27,7 +27,7 @@ class PictureStream {
 
     // The next kStripRows rows, or those that are left: linear radiance, three floats a pixel; and for an EXR as many
     // values a pixel as WriteOptions::exr_extra names, which other formats leave out.
-    void write(std::span<const float> rgb, std::span<const float> extra = {});
+    void write(std::span<const float> rgb, std::span<const float> extra = {}, const CodesHook& on_codes = {});
 
     // After the last row.
     void finish();

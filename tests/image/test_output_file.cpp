@@ -214,3 +214,20 @@ TEST_CASE("paths with spaces, quotes and letters beyond ASCII work in every form
         CHECK(read_metadata(path, kSceneKey) == "x = 1");
     }
 }
+
+TEST_CASE("a file may be longer than 4 GB: what is written far behind is read there") {
+    const ScratchFolder folder;
+    constexpr std::int64_t kFar = (std::int64_t{5} << 30) + 3;
+    {
+        OutputFile file(folder / "large.exr");
+        const std::vector<unsigned char> bytes{1, 2, 3, 4};
+        file.write_at(kFar, bytes);
+        std::vector<unsigned char> back(6, 9);
+        CHECK(file.read_at(kFar, back) == 4);
+        CHECK(back == std::vector<unsigned char>{1, 2, 3, 4, 9, 9});
+        CHECK(file.read_at(std::int64_t{1} << 32, back) == 6);
+        CHECK(back == std::vector<unsigned char>(6, 0));
+        CHECK(fs::file_size(*file.scratch_path()) == static_cast<std::uintmax_t>(kFar) + 4);
+    }
+    CHECK(fs::is_empty(folder.path()));
+}
