@@ -19,8 +19,8 @@
 #include "tools/cli/standard_output.h"
 
 // Each is a folder tools/NAME, in whose command.cpp add_command() adds it to the program.
-#define STRATA_COMMANDS(use)                                                                             \
-    use(render) use(scene_list) use(probe) use(strip) use(sweep) use(animate) use(figures) use(converge) \
+#define STRATA_COMMANDS(use)                                                                                        \
+    use(render) use(merge) use(scene_list) use(probe) use(strip) use(sweep) use(animate) use(figures) use(converge) \
         use(stability) use(explain) use(bench)
 
 #define STRATA_DECLARE(name)                 \

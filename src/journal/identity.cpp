@@ -14,6 +14,16 @@ std::string_view trimmed(std::string_view text) {
     return first == text.npos ? "" : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
+// Without the remark behind it, which begins at a # outside of quotes.
+std::string_view without_remark(std::string_view line) {
+    bool is_quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (line[i] == '"') is_quoted = !is_quoted;
+        if (line[i] == '#' && !is_quoted) return line.substr(0, i);
+    }
+    return line;
+}
+
 // "name", "name#2", "name#3".
 std::string numbered(std::map<std::string, int, std::less<>>& counts, std::string name) {
     const int count = ++counts[name];
@@ -35,8 +45,8 @@ void Identity::set_lines(std::string_view text) {
     while (!text.empty()) {
         const std::string_view line = text.substr(0, text.find('\n'));
         text.remove_prefix(std::min(text.size(), line.size() + 1));
-        const std::string_view content = trimmed(line);
-        if (content.empty() || content.front() == '#') continue;
+        const std::string_view content = trimmed(without_remark(line));
+        if (content.empty()) continue;
         if (content.front() == '[') {
             const std::size_t begin = content.find_first_not_of('[');
             section = numbered(counts, std::string(content.substr(begin, content.find(']') - begin)));

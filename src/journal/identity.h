@@ -16,8 +16,8 @@ class Identity {
     void set(std::string name, std::string value) { entries_.emplace_back(std::move(name), std::move(value)); }
 
     // A text of lines "name = value" below lines "[section]", as a scene is printed: an entry "section.name" each.
-    // Sections that come several times are numbered from the second on, and so are names. Other lines count as they
-    // are.
+    // Sections that come several times are numbered from the second on, and so are names. Remarks (#) do not count,
+    // other lines do as they are.
     void set_lines(std::string_view text);
 
     void write(PayloadWriter& payload) const;

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +19,7 @@ static const struct {
     const char* name;
     int error;
 } errors[] = {{"ENOSPC", ENOSPC}, {"EIO", EIO},       {"EACCES", EACCES}, {"EBUSY", EBUSY}, {"EMFILE", EMFILE},
-              {"EAGAIN", EAGAIN}, {"EDQUOT", EDQUOT}, {"EINTR", EINTR},   {"SHORT", kShort}};
+              {"EAGAIN", EAGAIN}, {"EDQUOT", EDQUOT}, {"EINTR", EINTR},   {"SHORT", kShort}, {"KILL", kKill}};
 
 static struct plan plan = {.log = -1, .threads = -1};
 static pthread_once_t plan_once = PTHREAD_ONCE_INIT;
@@ -85,6 +86,7 @@ int fault_of(enum kind kind, const char* what) {
         if (length >= (int)sizeof line) length = sizeof line - 1;
         syscall(SYS_write, plan.log, line, (size_t)length);
     }
+    if (error == kKill) kill(getpid(), SIGKILL);
     errno = interrupted_errno;
     return error;
 }

@@ -2,7 +2,8 @@
 //
 //   STRATA_TEST_FAULT=KIND:N:ERROR   the N-th call of a kind fails; N+ means that one and all after it, as on a full
 //                                    disk. KIND is a name in plan.c, ERROR an errno's name in plan.c, or SHORT: a write
-//                                    of half the bytes. Several, with commas between, at once
+//                                    of half the bytes, or KILL: the process ends there, as by a crash. Several, with
+//                                    commas between, at once
 //   STRATA_TEST_FAULT_LOG=FILE       gets a line for every call that counts: kind, number, "failed" or "called", what
 //   STRATA_TEST_SPAWN_PAUSE=S        posix_spawn() returns S seconds after the program was started, or when a signal
 //                                    comes
@@ -30,7 +31,7 @@ enum kind {
     kind_count
 };
 
-// The calls [first,last] of a kind, and errno, or kShort.
+// The calls [first,last] of a kind, and errno, kShort or kKill.
 struct fault {
     int kind;
     long first, last;
@@ -45,7 +46,7 @@ struct plan {
     int threads;     // -1: no limit
 };
 
-enum { kShort = -1 };
+enum { kShort = -1, kKill = -2 };
 
 const struct plan* the_plan(void);
 

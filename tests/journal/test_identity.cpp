@@ -6,10 +6,10 @@ using namespace strata::journal;
 
 namespace {
 
-constexpr const char* kScene = R"(title = "hills"
+constexpr const char* kScene = R"(title = "hills # 1"
 
 [sampling]
-N = 4
+N = 4      # whole numbers
 m = 2
 # a remark
 [[relief]]
@@ -44,13 +44,14 @@ TEST_CASE("equal identities do not differ") { CHECK(differences(of(kScene), of(k
 
 TEST_CASE("what differs is named by section and key, with both values") {
     using Lines = std::vector<std::string>;
-    CHECK(differences(of(kScene), of(replaced(kScene, "N = 4", "N = 8"))) == Lines{"sampling.N: 4 there, 8 here"});
+    CHECK(differences(of(kScene), of(replaced(kScene, "N = 4      # whole numbers", "N = 8 # other words"))) ==
+          Lines{"sampling.N: 4 there, 8 here"});
     CHECK(differences(of(kScene), of(replaced(kScene, "m = 2\n", ""))) == Lines{"sampling.m: 2 there, nothing here"});
     CHECK(differences(of(replaced(kScene, "m = 2\n", "")), of(kScene)) == Lines{"sampling.m: nothing there, 2 here"});
     CHECK(differences(of(kScene), of(replaced(kScene, "\"sum\"", "\"warp\""))) ==
           Lines{"relief#2.kind: \"sum\" there, \"warp\" here"});
     CHECK(differences(of(kScene), of(replaced(kScene, "hills", "hulls"))) ==
-          Lines{"title: \"hills\" there, \"hulls\" here"});
+          Lines{"title: \"hills # 1\" there, \"hulls # 1\" here"});
 }
 
 TEST_CASE("many differences are counted") {

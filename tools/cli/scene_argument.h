@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "src/film/film.h"
@@ -27,6 +28,11 @@ struct LoadedScene {
 
 class SceneArgument {
   public:
+    SceneArgument() = default;
+
+    // As if it had been typed, and nothing else.
+    explicit SceneArgument(std::string scene) : scene_(std::move(scene)) {}
+
     // Adds SCENE, --set and the options that stand for scene keys. A name such as "--scene" makes SCENE an option.
     // Keys in `own` get no option: the command has its own for them.
     void add_to(Command& command, const char* name = "SCENE", std::span<const std::string_view> own = {});

@@ -17,6 +17,7 @@
 #include "tools/job/batch.h"
 #include "tools/job/settings_mark.h"
 #include "tools/render/job.h"
+#include "tools/render/journal.h"
 #include "tools/render/outputs.h"
 #include "tools/render/statistics.h"
 
@@ -51,7 +52,7 @@ Rendered render_streamed(const Job& job, PictureOutputs& outputs, const strata::
     outputs.begin(job.metadata);
     Rendered rendered;
     strata::render::ProgressiveResult& result = rendered.result;
-    result.render = strata::render::render_strips(*image, estimator, job.picture.window, options, image::kStripRows,
+    result.render = strata::render::render_strips(*image, estimator, job.rendered_window(), options, image::kStripRows,
                                                   [&](const film::Film& strip) {
                                                       outputs.write(strip);
                                                       if (!outputs.any())
@@ -66,12 +67,12 @@ Rendered render_streamed(const Job& job, PictureOutputs& outputs, const strata::
 
 // The mean of several passes is known at their end.
 Rendered render_in_passes(const Job& job, PictureOutputs& outputs, const strata::render::RenderOptions& options,
-                          const TellEnd& tell_end) {
+                          strata::render::PassKeeper* keeper, const TellEnd& tell_end) {
     const auto image = integrate::make_image(job.picture.scene, job.picture.tracer);
     Rendered rendered;
     strata::render::ProgressiveResult& result = rendered.result;
     result = strata::render::render_progressively(*image, estimate::estimator_settings(job.picture.scene),
-                                                  job.picture.window, job.goal, options);
+                                                  job.rendered_window(), job.goal, options, keeper);
     tell_end(result);
     outputs.begin_late(metadata_of(job, result));
     outputs.write_whole(result.render.film);
@@ -82,13 +83,16 @@ Rendered render_in_passes(const Job& job, PictureOutputs& outputs, const strata:
 std::string stopped_line(const Job& job, const strata::render::ProgressiveResult& result) {
     if (result.passes > 0) return fmt::format("stopped  with {} passes finished\n", result.passes);
     return fmt::format("stopped  with {} of {} pixels finished\n", result.render.finished_pixels,
-                       std::int64_t{1} * job.picture.window.width() * job.picture.window.height());
+                       std::int64_t{1} * job.rendered_window().width() * job.rendered_window().height());
 }
 
 int render_command(const RenderRequest& request) {
     parallel::CancelToken& cancel = cli::cancel_by_signals();
     const Job job = prepare(request);
+    RenderJournal journal(job);
     PictureOutputs outputs(job);
+    outputs.use(journal.still());
+    journal.set_hidden_files(outputs.hidden_files());
     cli::PlannedFiles others;
     if (!job.statistics.empty()) others.plan(job.statistics);
     cli::ProgressPrinter progress(job.quiet);
@@ -96,14 +100,17 @@ int render_command(const RenderRequest& request) {
                                                 .tile = job.tile,
                                                 .on_progress = progress.callback(),
                                                 .cancel = &cancel,
-                                                .with_costs = !job.aovs.empty()};
+                                                .with_costs = !job.aovs.empty(),
+                                                .keeper = journal.still(),
+                                                .shard = job.shard ? &*job.shard : nullptr};
     const auto tell_end = [&](const strata::render::ProgressiveResult& result) {
         progress.clear();
         job::warn_of_unresolved(result.render.counters.unresolved_rays, job.quiet);
         if (result.render.cancelled && !job.quiet) cli::print_out(stopped_line(job, result));
     };
-    Rendered rendered = job.goal.passes > 1 ? render_in_passes(job, outputs, options, tell_end)
+    Rendered rendered = job.goal.passes > 1 ? render_in_passes(job, outputs, options, journal.passes(), tell_end)
                                             : render_streamed(job, outputs, options, cancel, tell_end);
+    journal.end(rendered.all_written && !rendered.result.render.cancelled);
     RunStatistics statistics = collect(rendered.result, job.goal, job.loaded.name);
     statistics.settings_mark = job::settings_mark(job.picture);
     if (!job.statistics.empty()) others.write(job.statistics, statistics_json(statistics));
@@ -117,6 +124,15 @@ double parse_target(const std::string& text) {
     if (value && *value >= kLeast && *value <= kMost) return *value;
     throw cli::UsageError(
         fmt::format("--target-rmse {}: allowed: a linear radiance, {} to {}", scene::excerpt(text), kLeast, kMost));
+}
+
+void add_journal_options(cli::Command& command, job::JournalOptions& options) {
+    command.add_flag("--restart", options.restart, "Throw an earlier journal away and begin anew");
+    command.add_flag("--no-journal", options.is_unwanted, "Keep no journal of finished work");
+    command.add_option(
+        "--journal-every",
+        [&options](const std::string& text) { options.interval_s = cli::parse_duration("--journal-every", text); },
+        "30s|2m", "Write the journal of finished work to the disk after such a time; default 30s");
 }
 
 void add_pass_options(cli::Command& command, RenderRequest& request) {
@@ -161,6 +177,10 @@ void add_command(cli::Command& program) {
                         "and NAME.evals.png beside the first output");
     command->add_option("--stats", request->statistics, "FILE.json", "Write counts and times as JSON");
     add_pass_options(*command, *request);
+    command->add_option("--shard", request->shard, "i/n",
+                        "Render part i of n alone, blocks of 64x64 pixels from all over the picture, into an EXR that "
+                        "`strata merge` puts together with the others; default SCENE.i-of-n.exr");
+    add_journal_options(*command, request->journal);
     cli::add_quiet(*command, request->quiet);
     command->footer(
         "Frame: pixel (0,0) is top left, its centre at (0.5, 0.5); u runs right, v down. World: right-handed, y up.\n"
@@ -176,6 +196,9 @@ void add_command(cli::Command& program) {
         "again.\nThe sampling error that is told is that of this picture, before it is rounded for a file, against "
         "infinitely many passes of the same N and tolerance; the bias of jittered and shared, which falls with the "
         "number of passes, is in it. Hits off the surface by up to the tolerance are not.\n"
+        "What is finished is also kept in a journal, NAME.EXT.journal beside the first output, from a sixth of\n"
+        "--journal-every on and until the picture is whole. After a crash or a signal the same command goes on from\n"
+        "it, to the same bits; with other settings it stops and lists what differs.\n"
         "On SIGINT, SIGTERM or SIGHUP what is finished is written as NAME.partial.EXT, of several passes the mean of "
         "the whole ones; an earlier NAME.EXT stays.\n"
         "A file that cannot be put in place is kept whole as NAME.kept.EXT, beside it or in TMPDIR, and told; the "

@@ -20,6 +20,7 @@
 #include "tools/cli/planned_files.h"
 #include "tools/cli/standard_output.h"
 #include "tools/job/exr_format.h"
+#include "tools/job/shard_text.h"
 
 namespace strata::tools::render {
 
@@ -119,6 +120,10 @@ std::vector<fs::path> output_paths(const RenderRequest& request, const Job& job)
     const std::string& name = job.loaded.name;
     std::vector<fs::path> asked;
     for (const std::string& typed : request.outputs) asked.push_back(with_format(typed, request.format));
+    if (asked.empty() && job.shard) {
+        const film::Shard shard = job.shard->shard();
+        asked = {fmt::format("{}.{}-of-{}.exr", name, shard.number, shard.count)};
+    }
     if (asked.empty()) asked = {name + ".exr", name + ".png"};
     std::vector<fs::path> paths;
     for (const fs::path& path : asked) {
@@ -131,6 +136,33 @@ std::vector<fs::path> output_paths(const RenderRequest& request, const Job& job)
         throw cli::UsageError("-o: two pictures for standard output, allowed: one");
     }
     return paths;
+}
+
+// Its files are EXRs, from which the whole is put together.
+void choose_shard(const RenderRequest& request, Job& job) {
+    if (request.shard.empty()) return;
+    const film::Shard shard = job::parse_shard(request.shard);
+    const std::int64_t blocks = film::ShardDeal(job.picture.window, 1).blocks();
+    if (shard.count > blocks) {
+        throw cli::UsageError(
+            fmt::format("--shard {}: the picture has {} blocks of {}x{} pixels, allowed: as many shards", request.shard,
+                        blocks, film::kShardBlock, film::kShardBlock));
+    }
+    if (job.goal.target_rmse > 0 || job.goal.time_limit_s > 0) {
+        throw cli::UsageError(
+            fmt::format("--shard {}: allowed with --passes; an error or a time to stop at is that of the whole picture",
+                        request.shard));
+    }
+    job.shard.emplace(job.picture.window, shard);
+    job.write.exr_layout = image::ExrLayout::tiles;
+}
+
+void check_shard_outputs(const Job& job) {
+    if (!job.shard) return;
+    for (const fs::path& path : job.outputs) {
+        if (image::format_of(path) == image::Format::exr) continue;
+        throw cli::UsageError(fmt::format("-o {}: allowed with --shard: .exr", path.string()));
+    }
 }
 
 void choose_aovs(const RenderRequest& request, Job& job) {
@@ -188,7 +220,7 @@ void check_partial_paths(const Job& job) {
 void check_limits(const Job& job) {
     for (const fs::path& path : job.outputs) {
         try {
-            image::check_encodable(path, job.picture.shape(), final_metadata(job, job.goal.passes, true), job.write);
+            image::check_encodable(path, job.shape(), final_metadata(job, job.goal.passes, true), job.write);
         } catch (const image::ImageError& error) {
             throw cli::UsageError(error.what());
         }
@@ -222,6 +254,11 @@ image::Metadata final_metadata(const Job& job, int passes, bool is_partial) {
     return metadata;
 }
 
+image::PictureShape Job::shape() const {
+    if (!shard) return picture.shape();
+    return {shard->window().x1, shard->window().y1, 0, 0, shard->window().x1, shard->window().y1};
+}
+
 Job prepare(const RenderRequest& request) {
     Job job;
     job.quiet = request.quiet;
@@ -240,9 +277,11 @@ Job prepare(const RenderRequest& request) {
                  .frames_per_second = image::frame_rate(job.loaded.scene)};
     if (!request.quiet) job.write.warn = job::warn_of_clipping;
     job.goal = choose_goal(request, job.loaded);
+    choose_shard(request, job);
     choose_aovs(request, job);
-    check_memory(job.picture.window, job.goal, job.loaded.scene);
+    check_memory(job.rendered_window(), job.goal, job.loaded.scene);
     job.outputs = output_paths(request, job);
+    check_shard_outputs(job);
     check_aov_paths(job);
     job.statistics = request.statistics;
     check_statistics(job);
@@ -255,7 +294,10 @@ Job prepare(const RenderRequest& request) {
     std::string aovs;
     for (const job::Aov aov : job.aovs) aovs += fmt::format("{}{}", aovs.empty() ? "" : ",", name_of(aov));
     if (!aovs.empty()) job.metadata.set("strata:aov", aovs);
+    if (job.shard) job.metadata.set(job::kShardKey, job::shard_text(job.shard->shard()));
     check_limits(job);
+    job.journal = request.journal;
+    job.journal.threads = job.threads > 0 ? job.threads : parallel::available_processors();
     return job;
 }
 

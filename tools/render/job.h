@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "src/film/shard.h"
 #include "src/image/encode.h"
 #include "src/image/metadata.h"
 #include "src/render/progressive.h"
 #include "tools/cli/scene_argument.h"
 #include "tools/job/aov.h"
 #include "tools/job/picture_job.h"
+#include "tools/job/work_journal.h"
 
 namespace strata::tools::render {
 
@@ -19,10 +21,11 @@ namespace strata::tools::render {
 struct RenderRequest {
     cli::SceneArgument scene;
     std::vector<std::string> outputs;
-    std::string crop, format, statistics, aov;
+    std::string crop, format, statistics, aov, shard;
     std::optional<integrate::Tracer> tracer;
     std::optional<int> passes;
     double target_rmse = 0, time_limit_s = 0;
+    job::JournalOptions journal;
     int threads = 0, tile = 32;
     bool is_simd_pinned = false, quiet = false, tiled = false;
 };
@@ -31,14 +34,20 @@ struct RenderRequest {
 struct Job {
     cli::LoadedScene loaded;
     job::PictureJob picture;
+    std::optional<film::ShardPicture> shard;  // of its window, which alone is rendered; empty: all of it
     std::vector<std::filesystem::path> outputs;
     std::vector<job::Aov> aovs;
     std::filesystem::path statistics;  // empty: none
     image::WriteOptions write;
     image::Metadata metadata;
     strata::render::PassGoal goal;
+    job::JournalOptions journal;
     int threads = 0, tile = 0;
     bool quiet = false;
+
+    // What is rendered, and its place in its frame: a shard is a frame of its own.
+    film::Rect rendered_window() const { return shard ? shard->window() : picture.window; }
+    image::PictureShape shape() const;
 };
 
 // Throws UsageError or SceneError for what cannot be asked for, ImageError for outputs that cannot be written.

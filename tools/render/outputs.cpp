@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "src/image/format.h"
 #include "src/image/stream_target.h"
 #include "tools/cli/planned_files.h"
 #include "tools/cli/standard_output.h"
@@ -17,12 +18,18 @@ namespace fs = std::filesystem;
 PictureOutputs::PictureOutputs(const Job& job) : job_(job) {
     for (const fs::path& path : job.outputs) {
         outputs_.push_back({path, std::make_unique<image::OutputFile>(path), std::nullopt});
+        note_hidden(*outputs_.back().file);
     }
-    for (const job::Aov aov : job.aovs) costs_.emplace_back(job, aov);
+    if (job.shard) return;  // pictures of AOVs are of the whole
+    for (const job::Aov aov : job.aovs) note_hidden(costs_.emplace_back(job, aov).file);
+}
+
+void PictureOutputs::note_hidden(const image::OutputFile& file) {
+    if (const auto path = file.scratch_path()) hidden_files_.push_back(*path);
 }
 
 void PictureOutputs::begin(Output& output, const image::Metadata& metadata) {
-    output.stream.emplace(std::move(output.file), job_.picture.shape(), metadata, job_.write);
+    output.stream.emplace(std::move(output.file), job_.shape(), metadata, job_.write);
 }
 
 void PictureOutputs::begin(const image::Metadata& metadata) {
@@ -45,12 +52,16 @@ void PictureOutputs::for_each(const Action& action) {
 void PictureOutputs::write_rows(std::span<const glm::vec3> pixels, std::span<const float> extra) {
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
     const std::span<const float> rgb(&pixels[0].x, 3 * pixels.size());
-    for_each([&](Output& output) { output.stream->write(rgb, extra); });
+    for_each([&](Output& output) {
+        output.stream->write(rgb, extra,
+                             journal_ != nullptr ? journal_->codes_hook(image::format_of(output.path)) : nullptr);
+    });
 }
 
 void PictureOutputs::write(const film::Film& strip) {
     write_rows(strip.pixels(), job::aov_values(job_.aovs, strip));
     for (Costs& costs : costs_) costs.picture.add(strip);
+    if (journal_ != nullptr) journal_->written(strip);
 }
 
 void PictureOutputs::write_whole(const film::Film& film) {

@@ -12,6 +12,7 @@
 #include "src/image/metadata.h"
 #include "src/image/output_file.h"
 #include "src/image/picture_stream.h"
+#include "tools/job/still_journal.h"
 #include "tools/render/job.h"
 
 namespace strata::tools::render {
@@ -27,6 +28,12 @@ class PictureOutputs {
     // or when all passes are done and each fails alone.
     void begin(const image::Metadata& metadata);
     void begin_late(const image::Metadata& metadata);
+
+    // From now on strips come by way of this journal, or null.
+    void use(job::StillJournal* journal) { journal_ = journal; }
+
+    // Of files that are not in place, where they are hidden beside it.
+    const std::vector<std::filesystem::path>& hidden_files() const { return hidden_files_; }
 
     // The next image::kStripRows rows, or those that are left.
     void write(const film::Film& strip);
@@ -57,6 +64,7 @@ class PictureOutputs {
         image::OutputFile file;
     };
 
+    void note_hidden(const image::OutputFile& file);
     void begin(Output& output, const image::Metadata& metadata);
     template <class Action>
     void for_each(const Action& action);
@@ -67,6 +75,8 @@ class PictureOutputs {
     void tell_written(const std::filesystem::path& path) const;
 
     const Job& job_;
+    job::StillJournal* journal_ = nullptr;
+    std::vector<std::filesystem::path> hidden_files_;
     std::list<Costs> costs_;
     std::vector<Output> outputs_;
 };
