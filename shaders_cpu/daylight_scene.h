@@ -36,6 +36,9 @@ class DaylightScene {
     // The air from the eye on; distance in surface units.
     MediumSegment air_along(const glm::dvec3& direction, double distance) const;
 
+    double gain() const { return gain_; }
+    const Daylight& tables() const { return daylight_; }
+
   private:
     double metres_, altitude_, gain_;
     scene::Sun sun_;

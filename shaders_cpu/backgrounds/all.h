@@ -9,9 +9,13 @@
 namespace strata::shaders {
 
 // radiance: linear, from a unit direction by the axes in which the sky lies.
+// gain: how much more of it lights the ground; 1 is true.
+// Beside these it may have sample(u, v), a direction by the density pdf(direction) per steradian, for sky rays: a
+// member without is taken to be about as bright everywhere.
 template <class T>
 concept BackgroundMember = ListMember<T> && requires(const T background, const glm::dvec3& direction) {
     { background.radiance(direction) } -> std::same_as<glm::vec3>;
+    { background.gain() } -> std::same_as<double>;
 };
 
 template <BackgroundMember... Members>

@@ -17,6 +17,9 @@ class DaylightSky {
     explicit DaylightSky(const ShaderInputs& inputs) : daylight_(inputs.daylight) {}
 
     glm::vec3 radiance(const glm::dvec3& direction) const { return daylight_->sky(direction); }
+    double gain() const { return daylight_->gain(); }
+    glm::dvec3 sample(double u, double v) const { return daylight_->tables().sample_sky(u, v).direction; }
+    double pdf(const glm::dvec3& direction) const { return daylight_->tables().sky_pdf(direction); }
 
   private:
     const DaylightScene* daylight_;

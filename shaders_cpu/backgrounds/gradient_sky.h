@@ -19,6 +19,7 @@ class GradientSky {
     explicit GradientSky(const ShaderInputs& inputs) : sky_(inputs.scene.sky) {}
 
     glm::vec3 radiance(const glm::dvec3& direction) const { return sky_radiance(sky_, direction); }
+    double gain() const { return 1.0; }
 
   private:
     scene::Sky sky_;

@@ -12,11 +12,14 @@
 namespace strata::shaders {
 
 // direction: towards the light, or to where most of it comes from; in the world, of unit length.
-// casts_shadows: whether a ray in that direction decides if the light arrives. Light of the whole sky has none.
-// on_white: linear radiance of a white Lambert surface in this light alone, with nothing in its way.
+// angular_radius: of its disc, radians, less than pi / 2; 0: a point. Of a disc each sample is lit from one point,
+// evenly by solid angle; on_white then is what makes the mean right. casts_shadows: whether a ray in that direction
+// decides if the light arrives. Light of the whole sky has none. on_white: linear radiance of a white Lambert surface
+// in this light alone, with nothing in its way.
 template <class T>
 concept LightMember = ListMember<T> && requires(const T light, const ShadingPoint& point) {
     { light.direction() } -> std::convertible_to<glm::dvec3>;
+    { light.angular_radius() } -> std::same_as<double>;
     { light.casts_shadows() } -> std::same_as<bool>;
     { light.on_white(point) } -> std::same_as<glm::vec3>;
 };

@@ -4,12 +4,14 @@
 //   colour      linear RGB                                                             1.0 0.93 0.82
 //   intensity   times colour is the irradiance of a surface that faces it; 0: no sun   2.6
 //   shadows     whether the surface shadows itself                                     true
+//   angular_radius_deg   of its disc, degrees; softens shadows                         0
 //
 //   [sun]
 //   direction = [0.4, 0.5, -0.3]
 //   colour = [1.0, 0.93, 0.82]
 //   intensity = 2.6
 //   shadows = true
+//   angular_radius_deg = 0.0
 #pragma once
 
 #include <algorithm>
@@ -17,6 +19,7 @@
 #include <numbers>
 
 #include "shaders_cpu/closed_list.h"
+#include "shaders_cpu/disc_light.h"
 #include "shaders_cpu/shading_point.h"
 #include "src/scene/needs.h"
 
@@ -29,10 +32,12 @@ class ChosenSun {
     explicit ChosenSun(const ShaderInputs& inputs)
         : direction_(glm::normalize(inputs.scene.sun.direction)),
           casts_shadows_(scene::needs_shadow_rays(inputs.scene)),
-          white_(inputs.scene.sun.colour * (inputs.scene.sun.intensity / std::numbers::pi)) {}
+          radius_(glm::radians(inputs.scene.sun.angular_radius_deg)),
+          white_(inputs.scene.sun.colour * (inputs.scene.sun.intensity / std::numbers::pi * disc_factor(radius_))) {}
 
     const glm::dvec3& direction() const { return direction_; }
     bool casts_shadows() const { return casts_shadows_; }
+    double angular_radius() const { return radius_; }
 
     // colour * intensity * max(0, n.l) / pi.
     glm::vec3 on_white(const ShadingPoint& point) const {
@@ -43,6 +48,7 @@ class ChosenSun {
   private:
     glm::dvec3 direction_;
     bool casts_shadows_;
+    double radius_;     // radians
     glm::dvec3 white_;  // radiance of white that faces it
 };
 

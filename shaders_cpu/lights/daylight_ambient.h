@@ -1,4 +1,5 @@
-// Light of the daylight sky, and of the ground below its horizon, on a surface. It arrives everywhere.
+// Light of the daylight sky, and of the ground below its horizon, on a surface. It arrives everywhere; sky.light =
+// "rays" is the alternative.
 //
 //   gain   1 is true, more is a photographer's fill   1
 //
@@ -11,18 +12,22 @@
 
 #include "shaders_cpu/closed_list.h"
 #include "shaders_cpu/shading_point.h"
+#include "src/scene/needs.h"
 
 namespace strata::shaders {
 
 class DaylightAmbient {
   public:
-    static bool is_in(const scene::Scene& scene) { return scene.sky.model == scene::SkyModel::daylight; }
+    static bool is_in(const scene::Scene& scene) {
+        return scene.sky.model == scene::SkyModel::daylight && !scene::needs_sky_rays(scene);
+    }
 
     explicit DaylightAmbient(const ShaderInputs& inputs)
         : daylight_(inputs.daylight), direction_(glm::normalize(inputs.scene.sun.direction)) {}
 
     const glm::dvec3& direction() const { return direction_; }
     bool casts_shadows() const { return false; }
+    double angular_radius() const { return 0.0; }
     glm::vec3 on_white(const ShadingPoint& point) const { return daylight_->sky_on_white(point.normal); }
 
   private:

@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 
 #include "shaders_cpu/closed_list.h"
+#include "shaders_cpu/disc_light.h"
 #include "shaders_cpu/shading_point.h"
 #include "src/scene/needs.h"
 
@@ -24,20 +25,25 @@ class DaylightSun {
     explicit DaylightSun(const ShaderInputs& inputs)
         : daylight_(inputs.daylight),
           direction_(glm::normalize(inputs.scene.sun.direction)),
-          casts_shadows_(scene::needs_shadow_rays(inputs.scene)) {}
+          casts_shadows_(scene::needs_shadow_rays(inputs.scene)),
+          radius_(glm::radians(inputs.scene.sun.angular_radius_deg)),
+          disc_(static_cast<float>(disc_factor(radius_))) {}
 
     const glm::dvec3& direction() const { return direction_; }
     bool casts_shadows() const { return casts_shadows_; }
+    double angular_radius() const { return radius_; }
 
     glm::vec3 on_white(const ShadingPoint& point) const {
         const auto n_dot_sun = static_cast<float>(std::max(glm::dot(point.normal, point.to_light), 0.0));
-        return daylight_->sun_on_white(point.height) * (n_dot_sun * daylight_->sun_over_ridges(point.x));
+        return daylight_->sun_on_white(point.height) * (n_dot_sun * daylight_->sun_over_ridges(point.x) * disc_);
     }
 
   private:
     const DaylightScene* daylight_;
     glm::dvec3 direction_;
     bool casts_shadows_;
+    double radius_;  // radians
+    float disc_;
 };
 
 }  // namespace strata::shaders

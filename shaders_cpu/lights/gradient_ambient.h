@@ -1,5 +1,6 @@
 // Light of the gradient sky (sky.h) on the ground: ambient_light(), a little more of it to what faces the sun's side
-// and less to what turns away, which gives shape to what lies in shadow. It arrives everywhere, into the deepest gorge.
+// and less to what turns away, which gives shape to what lies in shadow. It arrives everywhere, into the deepest gorge;
+// sky.light = "rays" is the alternative.
 //
 //   [sky]
 //   zenith = [0.13, 0.28, 0.62]
@@ -12,12 +13,15 @@
 #include "shaders_cpu/closed_list.h"
 #include "shaders_cpu/shading_point.h"
 #include "shaders_cpu/sky.h"
+#include "src/scene/needs.h"
 
 namespace strata::shaders {
 
 class GradientAmbient {
   public:
-    static bool is_in(const scene::Scene& scene) { return scene.sky.model == scene::SkyModel::gradient; }
+    static bool is_in(const scene::Scene& scene) {
+        return scene.sky.model == scene::SkyModel::gradient && !scene::needs_sky_rays(scene);
+    }
 
     explicit GradientAmbient(const ShaderInputs& inputs)
         : direction_(glm::normalize(inputs.scene.sun.direction)),
@@ -27,6 +31,7 @@ class GradientAmbient {
 
     const glm::dvec3& direction() const { return direction_; }
     bool casts_shadows() const { return false; }
+    double angular_radius() const { return 0.0; }
 
     glm::vec3 on_white(const ShadingPoint& point) const {
         const double n_dot_sun = std::clamp(glm::dot(point.normal, point.to_light), -1.0, 1.0);

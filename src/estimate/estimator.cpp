@@ -61,12 +61,19 @@ std::uint64_t Estimator::key(const glm::ivec2& owner) const {
     return sample::cell_key(settings_.seed, owner.x, owner.y);
 }
 
+void Estimator::name_owners(std::span<const glm::ivec2> owners, SampleSet& out) const {
+    out.samples_each = static_cast<std::uint32_t>(sample_count_);
+    out.owner_keys.resize(owners.size());
+    for (std::size_t p = 0; p < owners.size(); ++p) out.owner_keys[p] = key(owners[p]);
+}
+
 void Estimator::pixel_samples(std::span<const glm::ivec2> pixels, SampleSet& out) const {
     assert(!shared());
     const std::size_t total = pixels.size() * static_cast<std::size_t>(sample_count_);
     out.u.resize(total);
     out.v.resize(total);
     out.weight.clear();
+    name_owners(pixels, out);
     switch (row_.placement) {
         case Placement::pixel_grid:
         case Placement::support_grid:
@@ -151,6 +158,7 @@ void Estimator::cell_samples(std::span<const glm::ivec2> cells, SampleSet& out) 
     out.u.resize(total);
     out.v.resize(total);
     out.weight.clear();
+    name_owners(cells, out);
     out.fraction_u.resize(total);
     out.fraction_v.resize(total);
     for (std::size_t p = 0, i = 0; p < cells.size(); ++p) {

@@ -42,16 +42,20 @@ EstimatorSettings estimator_settings(const scene::Scene& scene);
 // The samples of several pixels or cells, one after the other; as many for each. Its memory is reused from call to
 // call.
 struct SampleSet {
-    std::vector<double> u, v;                   // px, in the frame
-    std::vector<double> t;                      // seconds
-    std::vector<double> weight;                 // not normalised; empty: all alike
+    std::vector<double> u, v;               // px, in the frame
+    std::vector<double> t;                  // seconds
+    std::vector<double> weight;             // not normalised; empty: all alike
+    std::vector<std::uint64_t> owner_keys;  // of each pixel or cell
+    std::uint32_t samples_each = 1;
     std::vector<float> fraction_u, fraction_v;  // position in its cell; shared estimators only
     std::vector<float> scratch_q, scratch_x;    // folded probabilities and what became of them
     std::vector<std::uint32_t> scratch_permutation;
 
     integrate::SampleBatch batch(std::size_t first, std::size_t count) const {
-        return {std::span(u).subspan(first, count), std::span(v).subspan(first, count),
-                std::span(t).subspan(first, count)};
+        return {std::span(u).subspan(first, count),
+                std::span(v).subspan(first, count),
+                std::span(t).subspan(first, count),
+                {owner_keys, samples_each, first}};
     }
 };
 
@@ -102,6 +106,7 @@ class Estimator {
     void place_by_density(std::span<const glm::ivec2> pixels, SampleSet& out) const;
     void place_times(std::span<const glm::ivec2> owners, SampleSet& out) const;
     std::uint64_t key(const glm::ivec2& owner) const;
+    void name_owners(std::span<const glm::ivec2> owners, SampleSet& out) const;
     std::vector<ProbeSample> probe_shared(int x, int y) const;
 
     EstimatorSettings settings_;

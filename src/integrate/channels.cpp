@@ -11,7 +11,8 @@ void add(SampleCost& cost, const trace::Hit& hit) {
 
 }  // namespace
 
-// Normals take the octaves that were missing from the hits' gradients.
+// Of the rays, their hits' normals, shadow rays and sky rays. Normals take the octaves that were missing from the hits'
+// gradients.
 void fill_channels(const SurfaceSetup& setup, SurfaceChunk& chunk) {
     const auto octaves = static_cast<std::uint32_t>(setup.field.evaluations());
     chunk.costs.assign(chunk.rays.size(), {});
@@ -22,6 +23,13 @@ void fill_channels(const SurfaceSetup& setup, SurfaceChunk& chunk) {
     }
     for (std::size_t i = 0; i < chunk.shadow.hits.size(); ++i)
         add(chunk.costs[chunk.sample[chunk.shadow.owner[i]]], chunk.shadow.hits[i]);
+    if (!setup.has_sky_rays || chunk.depth > setup.scene.sky.bounces) return;
+    fill_channels(setup, *chunk.next);
+    for (std::size_t i = 0; i < chunk.sample.size(); ++i) {
+        SampleCost& cost = chunk.costs[chunk.sample[i]];
+        cost.steps += chunk.next->costs[i].steps;
+        cost.noise_evaluations += chunk.next->costs[i].noise_evaluations;
+    }
 }
 
 }  // namespace strata::integrate

@@ -18,6 +18,10 @@ const char* name_of(Phase phase) {
             return "sun beams";
         case Phase::shadows:
             return "shadows";
+        case Phase::sky_rays:
+            return "sky rays";
+        case Phase::bounces:
+            return "bounces";
         case Phase::shading:
             return "shading";
     }
@@ -35,6 +39,7 @@ PhaseCost& PhaseCost::operator+=(const PhaseCost& other) {
 Counters& Counters::operator+=(const Counters& other) {
     rays += other.rays;
     shadow_rays += other.shadow_rays;
+    sky_rays += other.sky_rays;
     hits += other.hits;
     unresolved_rays += other.unresolved_rays;
     noise_evaluations += other.noise_evaluations;

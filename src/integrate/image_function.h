@@ -8,13 +8,14 @@
 #include <span>
 
 #include "src/integrate/sample_cost.h"
+#include "src/sample/dimensions.h"
 #include "src/trace/ray.h"
 
 namespace strata::integrate {
 
 // Where the work of a ray-cast surface is done.
-enum class Phase { beams, windows, rays, normals, sun_beams, shadows, shading };
-inline constexpr std::size_t kPhases = 7;
+enum class Phase { beams, windows, rays, normals, sun_beams, shadows, sky_rays, bounces, shading };
+inline constexpr std::size_t kPhases = 9;
 
 // "sun beams".
 const char* name_of(Phase phase);
@@ -33,6 +34,7 @@ struct PhaseCost {
 struct Counters {
     std::uint64_t rays = 0;  // image-function samples evaluated; counted by the renderer, all else by image functions
     std::uint64_t shadow_rays = 0;
+    std::uint64_t sky_rays = 0;
     std::uint64_t hits = 0;
     std::uint64_t unresolved_rays = 0;
     std::uint64_t noise_evaluations = 0;
@@ -49,14 +51,20 @@ struct SampleBatch {
     std::span<const double> u;
     std::span<const double> v;
     std::span<const double> t;
+    sample::SampleOwners owners{};  // which pixels or cells they belong to, if any
+
+    // Where a sample has further random dimensions from: of samples that belong to nothing, its place and time.
+    sample::SampleId id(std::size_t i) const {
+        return owners.keys.empty() ? sample::id_of_place(u[i], v[i], t[i]) : owners.id(i);
+    }
 };
 
 class ImageFunction {
   public:
     virtual ~ImageFunction() = default;
 
-    // Linear radiance of each sample. A sample's result depends on that sample alone, never on the rest of the batch.
-    // Thread-safe. counters belong to the caller.
+    // Linear radiance of each sample. A sample's result depends on that sample alone - place, time and id - never on
+    // the rest of the batch. Thread-safe. counters belong to the caller.
     virtual void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const = 0;
 
     // How many samples to hand over at once: enough to amortise the call, few enough to stop soon when cancelled.

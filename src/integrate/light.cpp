@@ -1,6 +1,7 @@
 #include "src/integrate/light.h"
 
 #include "src/integrate/phase_meter.h"
+#include "src/integrate/sky_rays.h"
 
 namespace strata::integrate {
 
@@ -62,23 +63,31 @@ void reflect(const SurfaceSetup& setup, SurfaceChunk& chunk) {
 
 }  // namespace
 
+void illuminate(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counters) {
+    PhaseMeter meter(counters);
+    find_heights(setup, chunk);
+    chunk.light.assign(chunk.sample.size(), glm::vec3(0.0f));
+    for (std::size_t l = 0; l < setup.lights.size(); ++l) add_light(setup, l, chunk);
+    meter.book(Phase::shading);
+}
+
 void shade(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counters) {
     PhaseMeter meter(counters);
     chunk.radiance.resize(chunk.rays.size());
     shade_misses(setup, chunk);
-    find_heights(setup, chunk);
-    chunk.light.assign(chunk.sample.size(), glm::vec3(0.0f));
-    for (std::size_t l = 0; l < setup.lights.size(); ++l) add_light(setup, l, chunk);
     reflect(setup, chunk);
     meter.book(Phase::shading);
 }
 
 void light_hits(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counters) {
+    choose_disc_points(setup, chunk);
     if (setup.has_shadows) {
         cast_shadows(setup, chunk, counters);
     } else {
         clear_shadows(chunk);
     }
+    illuminate(setup, chunk, counters);
+    if (setup.has_sky_rays) gather_sky(setup, chunk, counters);
     shade(setup, chunk, counters);
 }
 

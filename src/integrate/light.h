@@ -12,10 +12,13 @@ namespace strata::integrate {
 // Rays that no tracer could settle within its step limit are drawn in this colour, to be seen.
 inline constexpr glm::vec3 kUnresolvedRadiance{1.0f, 0.0f, 1.0f};
 
-// From chunk.visibility to chunk.light and chunk.radiance.
+// From chunk.visibility to chunk.light.
+void illuminate(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counters);
+
+// From chunk.light to chunk.radiance, of rays that met nothing as well.
 void shade(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counters);
 
-// Shadows, those that the scene has, and shade.
+// Shadows and sky rays, those that the scene has, illuminate and shade.
 void light_hits(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counters);
 
 }  // namespace strata::integrate

@@ -83,6 +83,8 @@ void place_rays(const SurfaceSetup& setup, const SampleBatch& samples, SurfaceCh
     chunk.view.resize(spins ? count : 0);
     chunk.directions_a_light = spins ? count : 1;
     chunk.to_light.resize(setup.lights.size() * chunk.directions_a_light);
+    chunk.ids.resize(setup.draws_light() ? count : 0);
+    chunk.to_sky.resize(spins && setup.has_sky_rays ? count : 0);
     if (count == 0) return;
     double time = samples.t[chunk.order.front()];
     Instant now = instant(setup, time);
@@ -95,10 +97,13 @@ void place_rays(const SurfaceSetup& setup, const SampleBatch& samples, SurfaceCh
         }
         trace::Ray& ray = chunk.rays[i];
         aim(setup, now, samples.u[sample], samples.v[sample], ray);
+        if (!chunk.ids.empty()) chunk.ids[i] = samples.id(sample);
         if (!spins) continue;
         chunk.view[i] = trace::Placement::direction_to_local(setup.placement.resting_orientation(),
                                                              now.orientation * ray.direction);
         aim_at_lights(setup, now, i, chunk);
+        if (!chunk.to_sky.empty())
+            chunk.to_sky[i] = glm::transpose(setup.placement.resting_orientation()) * now.orientation;
     }
     meter.book(Phase::shading);
 }

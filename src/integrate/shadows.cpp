@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/integrate/directions.h"
 #include "src/integrate/phase_meter.h"
 #include "src/integrate/trace_rays.h"
 #include "src/trace/shadow_ray.h"
@@ -23,9 +24,15 @@ double shadow_spacing(const SurfaceSetup& setup, const SurfaceChunk& chunk, cons
     return pixel * std::sqrt(facing / to_eye) / sampling.samples_a_side();
 }
 
+// Beams are for many rays that stand close together, as those from what the eye sees do and no others.
+bool is_shortened(const SurfaceSetup& setup, std::size_t l, const SurfaceChunk& chunk) {
+    return setup.lights[l].beams && chunk.depth == 0;
+}
+
 // A point of the convex bound that faces the light sees it.
 void make_shadow_rays(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& chunk) {
     ShadowRays& shadow = chunk.shadow;
+    const bool by_beams = is_shortened(setup, l, chunk);
     shadow.spacing.clear();
     for (std::size_t i = 0; i < chunk.sample.size(); ++i) {
         const glm::dvec3 normal(chunk.normal[i]), to_light = chunk.to_light_of_hit(l, i);
@@ -33,7 +40,7 @@ void make_shadow_rays(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& ch
         if (glm::dot(normal, to_light) <= 0.0 || hit.on_bound) continue;
         shadow.rays.push_back(trace::shadow_ray(chunk.ray_of_hit(i), hit, normal, to_light));
         shadow.owner.push_back(static_cast<std::uint32_t>(i));
-        if (setup.lights[l].beams) shadow.spacing.push_back(shadow_spacing(setup, chunk, to_light, i));
+        if (by_beams) shadow.spacing.push_back(shadow_spacing(setup, chunk, to_light, i));
     }
 }
 
@@ -44,7 +51,7 @@ void cast_shadows_of(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& chu
     make_shadow_rays(setup, l, chunk);
     const std::span<trace::Ray> rays = std::span(shadow.rays).subspan(first);
     trace::TraceCounters traced;
-    if (setup.lights[l].beams) setup.lights[l].beams->shorten(rays, shadow.spacing, shadow.sunlit, traced);
+    if (is_shortened(setup, l, chunk)) setup.lights[l].beams->shorten(rays, shadow.spacing, shadow.sunlit, traced);
     meter.book(Phase::sun_beams, traced);
 
     traced = {};
@@ -61,6 +68,21 @@ void cast_shadows_of(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& chu
 }
 
 }  // namespace
+
+void choose_disc_points(const SurfaceSetup& setup, SurfaceChunk& chunk) {
+    const std::size_t hits = chunk.sample.size();
+    chunk.to_disc.clear();
+    if (!setup.has_discs) return;
+    for (std::size_t l = 0; l < setup.lights.size(); ++l) {
+        const double radius = setup.lights[l].angular_radius;
+        const std::uint32_t pair = setup.disc_pair(chunk.depth, l);
+        for (std::size_t i = 0; i < hits; ++i) {
+            const glm::dvec3& middle = chunk.middle_of_light(l, i);
+            const auto [u, v] = sample::dimension_pair(chunk.ids[chunk.sample[i]], pair);
+            chunk.to_disc.push_back(radius > 0.0 ? disc_direction(middle, radius, u, v) : middle);
+        }
+    }
+}
 
 void clear_shadows(SurfaceChunk& chunk) {
     chunk.shadow.clear();

@@ -7,6 +7,9 @@
 
 namespace strata::integrate {
 
+// Draws the point of each light's disc that each hit is lit from, where lights have discs: chunk.to_disc.
+void choose_disc_points(const SurfaceSetup& setup, SurfaceChunk& chunk);
+
 // All hits see all lights.
 void clear_shadows(SurfaceChunk& chunk);
 

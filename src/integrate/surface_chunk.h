@@ -1,12 +1,14 @@
 // What the stages of a surface's picture hand on: arrays over some samples of a batch, and over those of them that hit.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "src/accel/sun_beams.h"
 #include "src/accel/zones.h"
 #include "src/integrate/sample_cost.h"
+#include "src/sample/dimensions.h"
 #include "src/trace/ray.h"
 #include "src/trace/window_tracer.h"
 
@@ -53,6 +55,11 @@ struct SurfaceChunk {
     std::vector<glm::dvec3> to_light;
     std::size_t directions_a_light = 1;
 
+    // The same, where light has random dimensions.
+    std::vector<sample::SampleId> ids;
+    std::vector<glm::dmat3> to_sky;  // from the surface's axes to those in which the sky lies; empty where they agree
+    int depth = 0;                   // how often light was reflected between these rays and the eye's
+
     // cull_rays: the rays, by cells of the screen that share windows and zones; empty where nothing is known of them.
     std::vector<trace::WindowedRays> windowed;
     std::vector<std::span<const accel::Zone>> zones;  // of each of `windowed`
@@ -69,17 +76,26 @@ struct SurfaceChunk {
     std::vector<glm::vec3> normal;           // outward, of unit length
 
     // light_hits.
+    std::vector<glm::dvec3> to_disc;  // a point of light l from the hits: from [l * hits] on; empty: lights are points
     ShadowRays shadow;
     std::vector<float> visibility;              // light l's from the hits, from [l * hits] on; empty: all see all
     std::vector<double> height, up_dot_normal;  // of each hit: ShadingPoint
     std::vector<glm::vec3> light;               // radiance that a white Lambert surface would have at each hit
     std::vector<glm::vec3> radiance;            // of each sample
 
+    // gather_sky: the hits' sky rays, and how much of their radiance arrives.
+    std::unique_ptr<SurfaceChunk> next;
+    std::vector<float> weight;  // of each sample, if it is such a ray
+
     // fill_channels: of each sample.
     std::vector<SampleCost> costs;
 
     const glm::dvec3& view_of(std::size_t i) const { return view.empty() ? rays[i].direction : view[i]; }
     const glm::dvec3& to_light_of_hit(std::size_t l, std::size_t i) const {
+        if (!to_disc.empty()) return to_disc[l * sample.size() + i];
+        return middle_of_light(l, i);
+    }
+    const glm::dvec3& middle_of_light(std::size_t l, std::size_t i) const {
         return to_light[l * directions_a_light + (directions_a_light == 1 ? 0 : sample[i])];
     }
     std::span<float> visibility_of(std::size_t l) {

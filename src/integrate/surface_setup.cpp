@@ -22,9 +22,10 @@ std::optional<shaders::DaylightScene> daylight_of(const SurfaceSetup& setup) {
         setup.placement.point_to_local(axes, setup.path.at(middle_of_shutter(scene)).position));
 }
 
-// Of one instant of the surface.
-std::optional<accel::SunBeams> beams_of(const SurfaceSetup& setup, const glm::dvec3& to_light, bool casts_shadows) {
-    if (setup.tracer != Tracer::fast || !casts_shadows) return {};
+// Of one direction and one instant of the surface.
+std::optional<accel::SunBeams> beams_of(const SurfaceSetup& setup, const glm::dvec3& to_light, double angular_radius,
+                                        bool casts_shadows) {
+    if (setup.tracer != Tracer::fast || !casts_shadows || angular_radius > 0.0) return {};
     const bool moves = setup.placement.moves() || setup.field.drifts();
     if (moves && scene::needs_time_samples(setup.scene)) return {};
     const double time = middle_of_shutter(setup.scene);
@@ -41,7 +42,9 @@ std::vector<SceneLight> lights_of(const SurfaceSetup& setup, const shaders::Shad
         const auto add = [&](const auto& member) {
             const glm::dvec3 direction = member.direction();
             const bool casts_shadows = member.casts_shadows();
-            lights.push_back({light, direction, casts_shadows, beams_of(setup, direction, casts_shadows)});
+            const double radius = member.angular_radius();
+            lights.push_back(
+                {light, direction, radius, casts_shadows, beams_of(setup, direction, radius, casts_shadows)});
         };
         std::visit(add, light);
     }
@@ -65,7 +68,9 @@ SurfaceSetup::SurfaceSetup(const scene::Scene& picture, Tracer used_tracer, std:
       background(shaders::member_in<shaders::Background>(shader_inputs())),
       lights(lights_of(*this, shader_inputs())),
       media(shaders::members_in<shaders::Medium>(shader_inputs())),
-      has_shadows(std::ranges::any_of(lights, &SceneLight::casts_shadows)) {
+      has_shadows(std::ranges::any_of(lights, &SceneLight::casts_shadows)),
+      has_discs(std::ranges::any_of(lights, [](const SceneLight& light) { return light.angular_radius > 0.0; })),
+      has_sky_rays(scene::needs_sky_rays(scene)) {
     if (tracer == Tracer::fast) screen_beams.emplace(scene, path, placement, field);
 }
 

@@ -25,7 +25,8 @@ enum class Tracer { fast, reference };
 // A light of the scene, and what its shadow rays may be shortened by.
 struct SceneLight {
     shaders::Light light;
-    glm::dvec3 direction;  // in the world, of unit length
+    glm::dvec3 direction;   // in the world, of unit length
+    double angular_radius;  // of its disc; 0: a point
     bool casts_shadows;
     std::optional<accel::SunBeams> beams;  // none where they would not serve, or it casts no shadows
 };
@@ -52,6 +53,16 @@ struct SurfaceSetup {
     std::vector<SceneLight> lights;
     std::vector<shaders::Medium> media;
     bool has_shadows;  // of any light
+    bool has_discs;    // any light has one
+    bool has_sky_rays;
+
+    // Whether samples have more random dimensions than place and time, and which pair of them is whose: after `depth`
+    // reflections the sky ray's, or light l's disc's.
+    bool draws_light() const { return has_discs || has_sky_rays; }
+    std::uint32_t sky_pair(int depth) const { return static_cast<std::uint32_t>(depth * (1 + lights.size())); }
+    std::uint32_t disc_pair(int depth, std::size_t l) const {
+        return sky_pair(depth) + static_cast<std::uint32_t>(1 + l);
+    }
 
   private:
     shaders::ShaderInputs shader_inputs() const { return {scene, daylight ? &*daylight : nullptr}; }

@@ -39,6 +39,9 @@ template <>
 inline constexpr std::array<std::string_view, 2> kEnumNames<SkyModel>{"gradient", "daylight"};
 
 template <>
+inline constexpr std::array<std::string_view, 2> kEnumNames<SkyLight>{"open", "rays"};
+
+template <>
 inline constexpr auto kEnumNames<EstimatorKind> = [] {
     std::array<std::string_view, all_estimators().size()> names;
     std::ranges::transform(all_estimators(), names.begin(), &EstimatorRow::name);
@@ -50,6 +53,7 @@ static_assert(static_cast<std::size_t>(solid::LevelSet::Bound::box) + 1 == solid
 static_assert(static_cast<std::size_t>(ToneCurve::agx) + 1 == kEnumNames<ToneCurve>.size());
 static_assert(static_cast<std::size_t>(Interpolation::linear) + 1 == kEnumNames<Interpolation>.size());
 static_assert(static_cast<std::size_t>(SkyModel::daylight) + 1 == kEnumNames<SkyModel>.size());
+static_assert(static_cast<std::size_t>(SkyLight::rays) + 1 == kEnumNames<SkyLight>.size());
 
 template <class E>
 constexpr std::string_view name_of(E value) {

@@ -30,4 +30,6 @@ bool needs_shadow_rays(const Scene& scene) {
     return sun.shadows && sun.intensity > 0.0 && sun.colour != glm::dvec3(0.0);
 }
 
+bool needs_sky_rays(const Scene& scene) { return scene.sky.light == SkyLight::rays; }
+
 }  // namespace strata::scene

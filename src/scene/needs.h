@@ -31,4 +31,7 @@ bool needs_time_samples(const Scene& scene);
 // Whether a shadow can darken a surface: it takes sunlight.
 bool needs_shadow_rays(const Scene& scene);
 
+// Whether the sky's light is found by rays.
+bool needs_sky_rays(const Scene& scene);
+
 }  // namespace strata::scene

@@ -18,6 +18,7 @@ enum class ImageKind { surface, zoneplate, checker, wheel, edge, ramp, constant 
 enum class ToneCurve { none, reinhard, agx };
 enum class Interpolation { smooth, linear };
 enum class SkyModel { gradient, daylight };
+enum class SkyLight { open, rays };
 
 struct Film {
     int width = 1280;
@@ -121,6 +122,7 @@ struct Sun {
     glm::dvec3 colour{1.0, 0.93, 0.82};
     double intensity = 2.6;
     bool shadows = true;
+    double angular_radius_deg = 0.0;  // of its disc; 0: a point, and shadows are hard
 
     // daylight: the shadow of mountains that the scene does not have, up to about this height
     double shadow_height = -1e6;  // surface units; far below: none
@@ -133,6 +135,8 @@ struct Sky {
     glm::dvec3 zenith{0.13, 0.28, 0.62};
     glm::dvec3 horizon{0.62, 0.74, 0.88};
     double haze_distance = 0.0;  // surface units over which 1 - 1/e of the light becomes horizon; 0: no haze
+    SkyLight light = SkyLight::open;
+    int bounces = 1;  // rays: how often ground may reflect light before it reaches what is seen
 
     // daylight
     double visibility_km = 80.0;  // at sea level, where 2 % of the contrast is left

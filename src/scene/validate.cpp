@@ -10,6 +10,7 @@
 #include "src/scene/camera_path.h"
 #include "src/scene/key_text.h"
 #include "src/scene/keys.h"
+#include "src/scene/needs.h"
 #include "src/scene/relief_keys.h"
 
 namespace strata::scene {
@@ -129,7 +130,9 @@ double reach(const Scene& scene) {
     for (const glm::dvec3& x : CameraPath(scene.camera).position_hull(open_shutter(scene))) {
         eye = std::max(eye, glm::distance(x, surface.origin));
     }
-    const double along_rays = (eye + scene.camera.far) / surface.scale;
+    // Sky rays go on from what was met, each as far as the eye's. The last shadow ray has a factor of 2 to go further.
+    const double stretches = needs_sky_rays(scene) ? 1.0 + scene.sky.bounces : 1.0;
+    const double along_rays = (eye + stretches * scene.camera.far) / surface.scale;
     return solid::visit([&](const auto& shape) { return shape.reach(along_rays); }, surface.solid());
 }
 

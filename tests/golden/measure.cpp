@@ -48,6 +48,7 @@ Record record_of(const render::RenderResult& result, const image::Picture& pictu
     record.counts = {{"total.rays", c.rays},
                      {"total.hits", c.hits},
                      {"total.shadow_rays", c.shadow_rays},
+                     {"total.sky_rays", c.sky_rays},
                      {"total.unresolved_rays", c.unresolved_rays},
                      {"total.evaluations", c.noise_evaluations},
                      {"total.steps", c.steps},

@@ -175,6 +175,26 @@ std::vector<GoldenScene> daylights() {
     };
 }
 
+// Light that draws from dimensions of its own: a sun with a disc, sky rays, reflections.
+std::vector<GoldenScene> soft_lights() {
+    const Keys soft{"sun.angular_radius_deg=3"}, rays{"sky.light=rays"};
+    const Keys low{"surface.octaves=4", "sampling.N=1"};
+    return {
+        {.name = "soft_sun", .keys = kTerrain + soft},
+        {.name = "soft_sun_daylight",
+         .keys = kTerrain + soft + Keys{"sky.model=daylight", "scale.metres=300"} + kStratified},
+        {.name = "sky_rays", .keys = kTerrain + rays + kStratified, .with_costs = true},
+        {.name = "sky_rays_daylight",
+         .keys = kTerrain + soft + rays + Keys{"sky.model=daylight", "scale.metres=300", "sky.gain=1.5"},
+         .crop = film::Rect{8, 9, 24, 17}},
+        {.name = "sky_rays_spin_bounces",
+         .keys = kPlanet + soft + rays + kShutter +
+                 Keys{"sky.bounces=3", "surface.spin_deg_per_s=72", "surface.octaves=5"}},
+        {.name = "sky_rays_isosurface", .keys = kIsosurface + rays + low},
+        {.name = "sky_rays_reference", .keys = kTerrain + soft + rays + low, .tracer = integrate::Tracer::reference},
+    };
+}
+
 // Composed reliefs: every type of term, over the plane and in space.
 std::vector<GoldenScene> reliefs() {
     const std::string crests = R"([[relief]]
@@ -228,7 +248,7 @@ of = ["carved", "rough"]
 
 std::vector<GoldenScene> golden_scenes() {
     std::vector<GoldenScene> all;
-    for (auto* group : {grounds, bodies, extremes, estimators, daylights, reliefs}) {
+    for (auto* group : {grounds, bodies, extremes, estimators, daylights, soft_lights, reliefs}) {
         for (GoldenScene& golden : group()) all.push_back(std::move(golden));
     }
     return all;

@@ -99,6 +99,7 @@ class BareImage final : public integrate::ImageFunction {
             trace_rays(setup_, chunk, counters);
             resolve_hits(setup_, chunk, counters);
             clear_shadows(chunk);
+            illuminate(setup_, chunk, counters);
             shade(setup_, chunk, counters);
             put_back(chunk, radiance, {}, counters);
         }

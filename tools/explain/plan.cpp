@@ -97,6 +97,14 @@ void add_surface(FeatureList& list, const scene::Scene& scene) {
              "the isosurface is cut from a ball or box; hits on it need no noise for their normal",
              "only isosurfaces are cut from a ball or box");
     list.add("shadow rays", scene::needs_shadow_rays(scene), shadow_reason(scene.sun));
+    list.add("soft sun", scene.sun.angular_radius_deg > 0.0,
+             "shadow rays to a point of the sun's disc a sample, without beams from the sun",
+             "sun.angular_radius_deg is 0: hard shadows");
+    const bool sky_rays = scene::needs_sky_rays(scene);
+    list.add("sky rays", sky_rays,
+             sky_rays ? fmt::format("a ray a hit; what it meets is lit in its turn, sky.bounces = {} times at most",
+                                    scene.sky.bounces)
+                      : "sky.light is \"open\": the sky's light by a formula, as if all of it were seen");
     const bool daylight = scene.sky.model == scene::SkyModel::daylight;
     list.add("daylight", daylight, "sun, sky and air by the Earth's atmosphere: tables of 0.2 s, made once",
              "sky.model is \"gradient\"");

@@ -167,14 +167,18 @@ RunStatistics collect(const strata::render::RenderResult& result, const std::str
 std::string summary(const RunStatistics& statistics) {
     const integrate::Counters& c = statistics.counters;
     const double rays = static_cast<double>(c.rays), shadow_rays = static_cast<double>(c.shadow_rays);
+    const double sky_rays = static_cast<double>(c.sky_rays), all_rays = rays + shadow_rays + sky_rays;
+    const std::string with_sky =
+        sky_rays > 0.0 ? fmt::format(", {} sky rays", report::scaled(sky_rays)) : std::string();
     std::string text = fmt::format("time     {} ({:.2f} s on {} thread{}, {:.2f} s of CPU, {})\n",
                                    cli::duration_text(statistics.seconds), statistics.seconds, statistics.threads,
                                    statistics.threads == 1 ? "" : "s", statistics.cpu_seconds, statistics.simd_target);
-    text += fmt::format("rays     {} and {} shadow rays, {}rays/s\n", report::scaled(rays), report::scaled(shadow_rays),
-                        report::scaled((rays + shadow_rays) / std::max(statistics.seconds, 1e-9)));
+    text +=
+        fmt::format("rays     {} and {} shadow rays{}, {}rays/s\n", report::scaled(rays), report::scaled(shadow_rays),
+                    with_sky, report::scaled(all_rays / std::max(statistics.seconds, 1e-9)));
     if (c.noise_evaluations > 0) {
         text += fmt::format("noise    {:.1f} evaluations a ray, shadow rays and normals included in the count\n",
-                            static_cast<double>(c.noise_evaluations) / std::max(1.0, rays + shadow_rays));
+                            static_cast<double>(c.noise_evaluations) / std::max(1.0, all_rays));
     }
     text += left_out_summary(c);
     if (c.steps > 0) text += phases_summary(statistics);
@@ -191,6 +195,7 @@ std::string statistics_json(const RunStatistics& statistics) {
                          {"threads", statistics.threads},
                          {"rays", c.rays},
                          {"shadow_rays", c.shadow_rays},
+                         {"sky_rays", c.sky_rays},
                          {"hits", c.hits},
                          {"unresolved_rays", c.unresolved_rays},
                          {"noise_evaluations", c.noise_evaluations},
