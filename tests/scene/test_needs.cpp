@@ -6,6 +6,7 @@
 
 #include "src/scene/camera_path.h"
 
+using namespace strata;
 using namespace strata::scene;
 
 namespace {

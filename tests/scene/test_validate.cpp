@@ -7,6 +7,7 @@
 #include "src/scene/validate.h"
 #include "tests/scene/random_scene.h"
 
+using namespace strata;
 using namespace strata::scene;
 
 namespace {
