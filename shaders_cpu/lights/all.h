@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shaders_cpu/closed_list.h"
+#include "shaders_cpu/light_layer.h"
 #include "shaders_cpu/lights/chosen_sun.h"
 #include "shaders_cpu/lights/daylight_ambient.h"
 #include "shaders_cpu/lights/daylight_sun.h"
@@ -16,8 +17,10 @@ namespace strata::shaders {
 // evenly by solid angle; on_white then is what makes the mean right. casts_shadows: whether a ray in that direction
 // decides if the light arrives. Light of the whole sky has none. on_white: linear radiance of a white Lambert surface
 // in this light alone, with nothing in its way.
+// kLayer: where it shows when a picture is asked for its light in layers.
 template <class T>
 concept LightMember = ListMember<T> && requires(const T light, const ShadingPoint& point) {
+    { T::kLayer } -> std::convertible_to<LightLayer>;
     { light.direction() } -> std::convertible_to<glm::dvec3>;
     { light.angular_radius() } -> std::same_as<double>;
     { light.casts_shadows() } -> std::same_as<bool>;

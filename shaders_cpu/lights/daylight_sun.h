@@ -13,6 +13,7 @@
 
 #include "shaders_cpu/closed_list.h"
 #include "shaders_cpu/disc_light.h"
+#include "shaders_cpu/light_layer.h"
 #include "shaders_cpu/shading_point.h"
 #include "src/scene/needs.h"
 
@@ -20,6 +21,8 @@ namespace strata::shaders {
 
 class DaylightSun {
   public:
+    static constexpr LightLayer kLayer = LightLayer::sun;
+
     static bool is_in(const scene::Scene& scene) { return scene.sky.model == scene::SkyModel::daylight; }
 
     explicit DaylightSun(const ShaderInputs& inputs)

@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 
 #include "shaders_cpu/closed_list.h"
+#include "shaders_cpu/light_layer.h"
 #include "shaders_cpu/shading_point.h"
 #include "shaders_cpu/sky.h"
 #include "src/scene/needs.h"
@@ -19,6 +20,8 @@ namespace strata::shaders {
 
 class GradientAmbient {
   public:
+    static constexpr LightLayer kLayer = LightLayer::sky;
+
     static bool is_in(const scene::Scene& scene) {
         return scene.sky.model == scene::SkyModel::gradient && !scene::needs_sky_rays(scene);
     }

@@ -27,10 +27,22 @@ double arc_cosine_deg(double x) {
 TerrainMaterial::TerrainMaterial(const scene::Material& material)
     : material_(material), low_(material.low), rise_(material.high - material.low), steep_(material.steep) {}
 
-glm::vec3 TerrainMaterial::albedo(double height, double slope_cosine) const {
+float TerrainMaterial::high(double height) const { return blend(height, material_.band_height, material_.band_width); }
+
+float TerrainMaterial::steepness(double slope_cosine) const {
     const double slope_deg = arc_cosine_deg(std::clamp(slope_cosine, -1.0, 1.0));
-    const glm::vec3 gentle = low_ + rise_ * blend(height, material_.band_height, material_.band_width);
-    const float steep = blend(slope_deg, material_.steep_deg, material_.steep_width_deg);
+    return blend(slope_deg, material_.steep_deg, material_.steep_width_deg);
+}
+
+double TerrainMaterial::height_mask(const ShadingPoint& point) const { return static_cast<double>(high(point.height)); }
+
+double TerrainMaterial::slope_mask(const ShadingPoint& point) const {
+    return static_cast<double>(steepness(point.up_dot_normal));
+}
+
+glm::vec3 TerrainMaterial::albedo(double height, double slope_cosine) const {
+    const glm::vec3 gentle = low_ + rise_ * high(height);
+    const float steep = steepness(slope_cosine);
     return gentle * (1.0f - steep) + steep_ * steep;
 }
 

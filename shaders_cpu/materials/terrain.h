@@ -38,7 +38,14 @@ class TerrainMaterial {
     // to 1.
     glm::vec3 albedo(double height, double slope_cosine) const;
 
+    // How much of the point is above band_height, and how much is steep: the weights of these blends, in [0,1].
+    double height_mask(const ShadingPoint& point) const;
+    double slope_mask(const ShadingPoint& point) const;
+
   private:
+    float high(double height) const;
+    float steepness(double slope_cosine) const;
+
     scene::Material material_;
     glm::vec3 low_, rise_, steep_;  // reflectances; rise_ leads from low to high
 };

@@ -22,15 +22,30 @@ PixelAccumulators::PixelAccumulators(const film::Rect& window, const BsplineWeig
       sums_(static_cast<std::size_t>(rows) * padded_stride(window.width()), 0.0),
       rows_{window, rows, padded_stride(window.width()), sums_.data()} {}
 
-void PixelAccumulators::finish(int y0, int y1, int x0, int x1, film::Film& film) {
+// set(x, y, mean, weight) for each pixel.
+template <class Set>
+void PixelAccumulators::divide(int y0, int y1, int x0, int x1, const Set& set) {
     for (int y = y0; y < y1; ++y) {
         double* sum = rows_.at(x0, rows_.slot(y));
         for (int x = x0; x < x1; ++x, sum += kChannels) {
-            film.finish(x, y, glm::vec3(glm::dvec3(sum[0], sum[1], sum[2]) / sum[3]));
-            if (!film.weights().empty()) film.set_weight(x, y, sum[3]);
+            set(x, y, glm::vec3(glm::dvec3(sum[0], sum[1], sum[2]) / sum[3]), sum[3]);
             std::fill_n(sum, kChannels, 0.0);
         }
     }
+}
+
+void PixelAccumulators::finish(int y0, int y1, int x0, int x1, film::Film& film) {
+    divide(y0, y1, x0, x1, [&](int x, int y, const glm::vec3& radiance, double weight) {
+        film.finish(x, y, radiance);
+        if (!film.weights().empty()) film.set_weight(x, y, weight);
+    });
+}
+
+void PixelAccumulators::finish_channel(int y0, int y1, int x0, int x1, std::size_t first, std::size_t count,
+                                       film::Film& film) {
+    divide(y0, y1, x0, x1, [&](int x, int y, const glm::vec3& value, double /*weight*/) {
+        std::copy_n(&value.x, count, film.channels_at(x, y).subspan(first).begin());
+    });
 }
 
 }  // namespace strata::estimate

@@ -25,7 +25,14 @@ class PixelAccumulators {
     // them, and sets them to zero.
     void finish(int y0, int y1, int x0, int x1, film::Film& film);
 
+    // The same of sums that are of another channel than colour: `count` <= 3 components, the film's channel values from
+    // `first` on.
+    void finish_channel(int y0, int y1, int x0, int x1, std::size_t first, std::size_t count, film::Film& film);
+
   private:
+    template <class Set>
+    void divide(int y0, int y1, int x0, int x1, const Set& set);
+
     const BsplineWeights& weights_;
     std::vector<double> sums_;
     AccumulatorRows rows_;

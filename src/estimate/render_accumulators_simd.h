@@ -11,7 +11,7 @@
 
 namespace strata::estimate {
 
-inline constexpr int kChannels = 4;  // red, green, blue, weight
+inline constexpr int kChannels = 4;  // red, green, blue, weight; or three components of a channel beside colour
 
 // The samples of one screen cell.
 struct CellSamples {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 namespace strata::film {
@@ -19,7 +20,7 @@ struct Rect {
 
 // What a film holds of each pixel beside its radiance.
 struct FilmExtras {
-    bool costs = false;
+    std::size_t channel_values = 0;  // of a pixel
     bool weights = false;
 };
 
@@ -44,21 +45,27 @@ class Film {
         finished_[index(x, y)] = 1;
     }
 
-    // Means over the samples taken for a pixel, each counting alike: steps, noise evaluations. Empty: not asked for.
-    const std::vector<glm::vec2>& costs() const { return costs_; }
+    // What was asked for beside radiance, pixel by pixel: extras.channel_values floats each.
+    const std::vector<float>& channels() const { return channels_; }
+    std::span<const float> channels_at(int x, int y) const {
+        return std::span(channels_).subspan(index(x, y) * channel_values_, channel_values_);
+    }
 
     // May be set before or after the pixel is finished.
-    void set_cost(int x, int y, const glm::vec2& cost) { costs_[index(x, y)] = cost; }
+    std::span<float> channels_at(int x, int y) {
+        return std::span(channels_).subspan(index(x, y) * channel_values_, channel_values_);
+    }
 
     // The sum of weights that each pixel's radiance was divided by. Empty: not asked for, or all are alike.
     const std::vector<double>& weights() const { return weights_; }
     void set_weight(int x, int y, double weight) { weights_[index(x, y)] = weight; }
 
-    // Takes over what is finished of a part, whose window lies inside this film's when it is moved by (dx,dy).
+    // Takes over what is finished of a part, whose window lies inside this film's when it is moved by (dx,dy), and
+    // which holds the same of a pixel.
     void paste(const Film& part, int dx = 0, int dy = 0);
 
     std::size_t bytes() const {
-        return pixels_.size() * (sizeof(glm::vec3) + sizeof(std::uint8_t)) + costs_.size() * sizeof(glm::vec2) +
+        return pixels_.size() * (sizeof(glm::vec3) + sizeof(std::uint8_t)) + channels_.size() * sizeof(float) +
                weights_.size() * sizeof(double);
     }
 
@@ -71,7 +78,8 @@ class Film {
     Rect window_;
     std::vector<glm::vec3> pixels_;
     std::vector<std::uint8_t> finished_;
-    std::vector<glm::vec2> costs_;
+    std::size_t channel_values_ = 0;
+    std::vector<float> channels_;
     std::vector<double> weights_;
 };
 

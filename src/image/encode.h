@@ -31,8 +31,7 @@ struct WriteOptions {
     ColourOut colour{};  // EXR ignores it and stays linear
     ExrFormat exr_format = ExrFormat::half;
     ExrLayout exr_layout = ExrLayout::automatic;
-    std::vector<std::string>
-        exr_extra{};  // channels of 32 bits beside R, G and B, as "steps.Y", sorted; of streams alone
+    std::vector<std::string> exr_extra{};  // channels of 32 bits beside R, G and B, as "steps.Y"; of streams alone
     std::optional<FrameRate> frames_per_second{};    // that an EXR says, where it is a frame of an animation
     bool keeps_not_finite = false;                   // in an EXR in floating point: of a picture of another program
     std::function<void(const std::string&)> warn{};  // of what a whole file lost: radiance beyond the largest half

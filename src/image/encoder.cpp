@@ -165,8 +165,22 @@ void Encoder::write_codes(std::span<const float> rgb) {
     write(OIIO::TypeDesc::UINT8, round_codes<std::uint8_t>(rgb).data(), rows);
 }
 
+// An EXR gives its channels back in an order of its own.
+std::vector<std::size_t> Encoder::places_in(const OIIO::ImageSpec& from) const {
+    std::vector<std::size_t> places;
+    for (const std::string& name : output_->spec().channelnames) {
+        const int place = from.channelindex(name);
+        if (place < 0) fail_to_write(path_, fmt::format("the channel {} is lost", name));
+        places.push_back(static_cast<std::size_t>(place));
+    }
+    return places;
+}
+
 void Encoder::copy(OIIO::ImageInput& written) {
     const OIIO::ImageSpec& from = written.spec();
+    const std::vector<std::size_t> places = format_ == Format::exr ? places_in(from) : std::vector<std::size_t>();
+    const bool is_in_order = std::ranges::is_sorted(places);
+    std::vector<unsigned char> ordered;
     // Every half is a float.
     const OIIO::TypeDesc type =
         format_ == Format::exr ? OIIO::TypeDesc::FLOAT : pixel_type(format_, options_.exr_format);
@@ -181,6 +195,14 @@ void Encoder::copy(OIIO::ImageInput& written) {
                 ? written.read_tiles(0, 0, from.x, from.x + from.width, y, y + rows, 0, 1, 0, chend, type, strip.data())
                 : written.read_scanlines(0, 0, y, y + rows, 0, 0, chend, type, strip.data());
         if (!read) fail_to_write(path_, written.geterror());
+        if (!is_in_order) {
+            ordered.resize(strip.size());
+            for (std::size_t i = 0; i < strip.size() / type.size(); ++i) {
+                const std::size_t value = i - i % places.size() + places[i % places.size()];
+                std::copy_n(&strip[value * type.size()], type.size(), &ordered[i * type.size()]);
+            }
+            strip.swap(ordered);
+        }
         write(type, strip.data(), rows);
     }
 }

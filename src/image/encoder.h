@@ -48,6 +48,7 @@ class Encoder {
     std::size_t channels() const { return static_cast<std::size_t>(output_->spec().nchannels); }
     template <class Code>
     void write_coded(std::vector<Code> codes, OIIO::TypeDesc type, int rows, const CodesHook& on_codes);
+    std::vector<std::size_t> places_in(const OIIO::ImageSpec& from) const;
     void write_exr(std::span<const float> rgb, std::span<const float> extra, int rows);
     void count_not_finite(std::span<const float> rgb);
     void count_clipped(std::span<const float> rgb);

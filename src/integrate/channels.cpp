@@ -1,35 +1,71 @@
 #include "src/integrate/channels.h"
 
+#include <algorithm>
+
 namespace strata::integrate {
 
-namespace {
-
-void add(SampleCost& cost, const trace::Hit& hit) {
-    cost.steps += hit.steps;
-    cost.noise_evaluations += hit.noise_evaluations;
+const Channel* find_channel(std::string_view name) {
+    const std::span<const Channel> all = all_channels();
+    const auto found = std::ranges::find(all, name, &Channel::name);
+    return found == all.end() ? nullptr : &*found;
 }
 
-}  // namespace
+std::string_view components_of(ChannelType type) {
+    switch (type) {
+        case ChannelType::work:
+        case ChannelType::number:
+            return "Y";
+        case ChannelType::colour:
+            return "RGB";
+        case ChannelType::vector:
+            return "XYZ";
+        case ChannelType::screen:
+            return "XY";
+        case ChannelType::depth:
+            return "Z";
+    }
+    return "";
+}
 
-// Of the rays, their hits' normals, shadow rays and sky rays. Normals take the octaves that were missing from the hits'
-// gradients.
-void fill_channels(const SurfaceSetup& setup, SurfaceChunk& chunk) {
-    const auto octaves = static_cast<std::uint32_t>(setup.field.evaluations());
-    chunk.costs.assign(chunk.rays.size(), {});
-    for (std::size_t i = 0; i < chunk.rays.size(); ++i) add(chunk.costs[i], chunk.hits[i]);
-    for (std::size_t i = 0; i < chunk.sample.size(); ++i) {
-        const trace::Hit& hit = chunk.surface_hits[i];
-        if (!hit.on_bound) chunk.costs[chunk.sample[i]].noise_evaluations += octaves - hit.octaves;
+std::vector<std::string> file_channels(const Channel& channel, std::string_view prefix) {
+    if (prefix.empty() && channel.type == ChannelType::depth) return {std::string(channel.name)};
+    std::string layer(prefix);
+    if (!prefix.empty()) layer += '.';
+    layer += channel.name;
+    std::vector<std::string> names;
+    for (const char component : components_of(channel.type)) names.push_back(layer + '.' + component);
+    return names;
+}
+
+std::string_view name_of(ChannelFilter filter) {
+    switch (filter) {
+        case ChannelFilter::picture:
+            return "picture";
+        case ChannelFilter::mean:
+            return "mean";
+        case ChannelFilter::nearest:
+            return "nearest";
+        case ChannelFilter::min:
+            return "min";
+        case ChannelFilter::sum:
+            return "sum";
+        case ChannelFilter::variance:
+            return "variance";
     }
-    for (std::size_t i = 0; i < chunk.shadow.hits.size(); ++i)
-        add(chunk.costs[chunk.sample[chunk.shadow.owner[i]]], chunk.shadow.hits[i]);
-    if (!setup.has_sky_rays || chunk.depth > setup.scene.sky.bounces) return;
-    fill_channels(setup, *chunk.next);
-    for (std::size_t i = 0; i < chunk.sample.size(); ++i) {
-        SampleCost& cost = chunk.costs[chunk.sample[i]];
-        cost.steps += chunk.next->costs[i].steps;
-        cost.noise_evaluations += chunk.next->costs[i].noise_evaluations;
+    return "";
+}
+
+ChannelSet::ChannelSet(std::span<const Channel* const> channels) {
+    for (const Channel* channel : channels) {
+        if (std::ranges::find(entries_, channel, &Entry::channel) != entries_.end()) continue;
+        const std::size_t count = components_of(channel->type).size();
+        entries_.push_back({channel, values_, count});
+        values_ += count;
     }
+}
+
+bool ChannelSet::has(ChannelFilter filter) const {
+    return std::ranges::any_of(entries_, [&](const Entry& entry) { return entry.channel->filter == filter; });
 }
 
 }  // namespace strata::integrate

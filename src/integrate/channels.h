@@ -1,12 +1,86 @@
-// Stage of a surface's picture: what is asked for beside radiance.
+// What a picture holds beside its colour: arbitrary output variables (AOVs). Each is one row of the table in
+// channel_table.cpp; film, estimators, files, options and help follow from the rows.
 #pragma once
 
-#include "src/integrate/surface_chunk.h"
-#include "src/integrate/surface_setup.h"
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace strata::integrate {
 
-// chunk.costs: what each sample's ray, its normal and its shadow ray took.
-void fill_channels(const SurfaceSetup& setup, SurfaceChunk& chunk);
+class SampleView;
+
+// What the values are, which says how many there are and what their channels in a file are called.
+enum class ChannelType {
+    work,    // a number >= 0, NAME.Y; a picture in false colour is drawn of it as well
+    number,  // NAME.Y
+    colour,  // linear light or reflectance, NAME.R, NAME.G, NAME.B
+    vector,  // in space, NAME.X, NAME.Y, NAME.Z
+    screen,  // a vector on the screen, NAME.X, NAME.Y
+    depth,   // a number in the channel NAME, without a layer
+};
+
+// How the values of samples become those of a pixel. All others take the samples that the estimator places for
+// this very pixel; where samples are shared, those in the pixel's own square.
+enum class ChannelFilter {
+    picture,  // weighted as the picture's colour is
+    mean,     // each of them counts alike
+    nearest,  // the one nearest to the pixel's centre, of several the first
+    min,      // the least, for each component
+    sum,
+    variance,  // of the mean: sum of (value - mean)^2 / (n (n - 1)) over n samples
+};
+
+struct Channel {
+    std::string_view name;  // NAME of its channels in a file, and of --aov
+    ChannelType type;
+    ChannelFilter filter;
+    std::string_view unit;
+    std::string_view meaning;
+    glm::vec3 (*value)(const SampleView& sample);  // of one sample; components beyond those of the type are not used
+};
+
+// All there are, in the order in which they are told.
+std::span<const Channel> all_channels();
+
+// Nothing where there is none of that name.
+const Channel* find_channel(std::string_view name);
+
+// The last parts of a channel's names in a file, one character a component: "XYZ".
+std::string_view components_of(ChannelType type);
+
+// "N.X", "N.Y", "N.Z"; "PREFIX.N.X" and so on with a prefix. Depth is "Z", and "PREFIX.Z.Z".
+std::vector<std::string> file_channels(const Channel& channel, std::string_view prefix = "");
+
+// "nearest".
+std::string_view name_of(ChannelFilter filter);
+
+// Channels that are asked for. Values of a sample or a pixel lie side by side, in the order of the entries.
+class ChannelSet {
+  public:
+    struct Entry {
+        const Channel* channel;
+        std::size_t first;  // of its components, among the values
+        std::size_t count;
+    };
+
+    ChannelSet() = default;
+    explicit ChannelSet(std::span<const Channel* const> channels);
+
+    bool empty() const { return entries_.empty(); }
+    std::span<const Entry> entries() const { return entries_; }
+
+    // Of a sample or a pixel.
+    std::size_t values() const { return values_; }
+
+    bool has(ChannelFilter filter) const;
+
+  private:
+    std::vector<Entry> entries_;  // each channel once
+    std::size_t values_ = 0;
+};
 
 }  // namespace strata::integrate

@@ -1,7 +1,5 @@
 #include "src/integrate/image_function.h"
 
-#include <algorithm>
-
 namespace strata::integrate {
 
 const char* name_of(Phase phase) {
@@ -47,12 +45,6 @@ Counters& Counters::operator+=(const Counters& other) {
     steps += other.steps;
     for (std::size_t i = 0; i < kPhases; ++i) phases[i] += other.phases[i];
     return *this;
-}
-
-void ImageFunction::evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance,
-                                        std::span<SampleCost> costs, Counters& counters) const {
-    std::fill(costs.begin(), costs.end(), SampleCost{});
-    evaluate(samples, radiance, counters);
 }
 
 }  // namespace strata::integrate

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <utility>
 
-#include "src/integrate/sample_cost.h"
+#include "src/integrate/channels.h"
 #include "src/sample/dimensions.h"
 #include "src/trace/ray.h"
 
@@ -59,20 +61,34 @@ struct SampleBatch {
     }
 };
 
+// Where the results of a batch go, each of its samples in the batch's order.
+struct SampleOut {
+    SampleOut() = default;
+
+    // Radiance alone.
+    template <std::convertible_to<std::span<glm::vec3>> Radiance>
+    SampleOut(Radiance&& sample_radiance) : radiance(std::forward<Radiance>(sample_radiance)) {}
+
+    SampleOut(std::span<glm::vec3> sample_radiance, const ChannelSet& asked, std::span<float> channel_values)
+        : radiance(sample_radiance), channels(&asked), values(channel_values) {}
+
+    bool has_channels() const { return channels != nullptr && !channels->empty(); }
+
+    std::span<glm::vec3> radiance;
+    const ChannelSet* channels = nullptr;  // asked for; none: radiance alone
+    std::span<float> values;               // channels->values() a sample
+};
+
 class ImageFunction {
   public:
     virtual ~ImageFunction() = default;
 
-    // Linear radiance of each sample. A sample's result depends on that sample alone - place, time and id - never on
-    // the rest of the batch. Thread-safe. counters belong to the caller.
-    virtual void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const = 0;
+    // Linear radiance of each sample, and the channels asked for. A sample's result depends on that sample alone -
+    // place, time and id - never on the rest of the batch. Thread-safe. counters belong to the caller.
+    virtual void evaluate(const SampleBatch& samples, const SampleOut& out, Counters& counters) const = 0;
 
     // How many samples to hand over at once: enough to amortise the call, few enough to stop soon when cancelled.
     virtual std::size_t batch_samples() const { return 2048; }
-
-    // The same radiance, and what each sample cost: nothing, unless a function traces.
-    virtual void evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance,
-                                     std::span<SampleCost> costs, Counters& counters) const;
 };
 
 }  // namespace strata::integrate

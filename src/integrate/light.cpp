@@ -33,19 +33,12 @@ void find_heights(const SurfaceSetup& setup, SurfaceChunk& chunk) {
     solid::visit(find, setup.field.solid());
 }
 
-shaders::ShadingPoint point_of(const SurfaceChunk& chunk, std::size_t i) {
-    return {.x = chunk.x[i],
-            .normal = glm::dvec3(chunk.normal[i]),
-            .height = chunk.height[i],
-            .up_dot_normal = chunk.up_dot_normal[i]};
-}
-
 void add_light(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& chunk) {
     const std::span<const float> visibility = chunk.visibility_of(l);
     const auto add = [&](const auto& light) {
         for (std::size_t i = 0; i < chunk.sample.size(); ++i) {
             if (!visibility.empty() && visibility[i] == 0.0f) continue;
-            shaders::ShadingPoint point = point_of(chunk, i);
+            shaders::ShadingPoint point = shading_point(chunk, i);
             point.to_light = chunk.to_light_of_hit(l, i);
             chunk.light[i] += light.on_white(point);
         }
@@ -56,7 +49,7 @@ void add_light(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& chunk) {
 void reflect(const SurfaceSetup& setup, SurfaceChunk& chunk) {
     const auto reflect_by = [&](const auto& material) {
         for (std::size_t i = 0; i < chunk.sample.size(); ++i)
-            chunk.radiance[chunk.sample[i]] = material.reflectance(point_of(chunk, i)) * chunk.light[i];
+            chunk.radiance[chunk.sample[i]] = material.reflectance(shading_point(chunk, i)) * chunk.light[i];
     };
     std::visit(reflect_by, setup.material);
 }

@@ -12,6 +12,14 @@ namespace strata::integrate {
 // Rays that no tracer could settle within its step limit are drawn in this colour, to be seen.
 inline constexpr glm::vec3 kUnresolvedRadiance{1.0f, 0.0f, 1.0f};
 
+// A hit of a chunk that went through illuminate, as materials and lights see it; of no light.
+inline shaders::ShadingPoint shading_point(const SurfaceChunk& chunk, std::size_t hit) {
+    return {.x = chunk.x[hit],
+            .normal = glm::dvec3(chunk.normal[hit]),
+            .height = chunk.height[hit],
+            .up_dot_normal = chunk.up_dot_normal[hit]};
+}
+
 // From chunk.visibility to chunk.light.
 void illuminate(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counters);
 

@@ -9,6 +9,7 @@
 #include "shaders_cpu/ramp.h"
 #include "shaders_cpu/wheel.h"
 #include "shaders_cpu/zoneplate.h"
+#include "src/integrate/fill_channels.h"
 
 namespace strata::integrate {
 namespace {
@@ -20,11 +21,14 @@ class PatternImage final : public ImageFunction {
     PatternImage(const Parameters& parameters, const scene::Film& film)
         : parameters_(parameters), width_(film.width), height_(film.height) {}
 
-    void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& /*counters*/) const override {
+    void evaluate(const SampleBatch& samples, const SampleOut& out, Counters& /*counters*/) const override {
         assert(samples.v.size() == samples.u.size() && samples.t.size() == samples.u.size());
-        assert(radiance.size() == samples.u.size());
-        for (std::size_t i = 0; i < radiance.size(); ++i)
-            radiance[i] = glm::vec3(Pattern(parameters_, width_, height_, samples.u[i], samples.v[i], samples.t[i]));
+        assert(out.radiance.size() == samples.u.size());
+        for (std::size_t i = 0; i < out.radiance.size(); ++i) {
+            const float value = Pattern(parameters_, width_, height_, samples.u[i], samples.v[i], samples.t[i]);
+            out.radiance[i] = glm::vec3(value);
+        }
+        fill_channels(out);
     }
 
   private:

@@ -4,6 +4,10 @@
 
 namespace strata::integrate {
 
+trace::Camera camera_at(const SurfaceSetup& setup, double t) {
+    return setup.path.moves() ? trace::Camera(setup.path.at(t), setup.scene.film) : setup.camera;
+}
+
 namespace {
 
 // What the rays of one time share.
@@ -13,10 +17,6 @@ struct Instant {
     trace::Camera eye;       // in the surface's axes
     trace::Ray ray;          // in the surface's coordinates, all but its direction and tolerance
 };
-
-trace::Camera camera_at(const SurfaceSetup& setup, double t) {
-    return setup.path.moves() ? trace::Camera(setup.path.at(t), setup.scene.film) : setup.camera;
-}
 
 trace::Ray world_ray(const SurfaceSetup& setup, const trace::Camera& camera, double u, double v) {
     const trace::CameraRay seen = camera.ray(u, v);

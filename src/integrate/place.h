@@ -7,6 +7,9 @@
 
 namespace strata::integrate {
 
+// The camera where it is at a time, in the world.
+trace::Camera camera_at(const SurfaceSetup& setup, double t);
+
 // The camera's ray through a point of the screen at a time, in the world, with the scene's tolerance.
 trace::Ray camera_ray(const SurfaceSetup& setup, double u, double v, double t);
 

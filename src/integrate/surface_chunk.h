@@ -7,7 +7,6 @@
 
 #include "src/accel/sun_beams.h"
 #include "src/accel/zones.h"
-#include "src/integrate/sample_cost.h"
 #include "src/sample/dimensions.h"
 #include "src/trace/ray.h"
 #include "src/trace/window_tracer.h"
@@ -87,9 +86,6 @@ struct SurfaceChunk {
     std::unique_ptr<SurfaceChunk> next;
     std::vector<float> weight;  // of each sample, if it is such a ray
 
-    // fill_channels: of each sample.
-    std::vector<SampleCost> costs;
-
     const glm::dvec3& view_of(std::size_t i) const { return view.empty() ? rays[i].direction : view[i]; }
     const glm::dvec3& to_light_of_hit(std::size_t l, std::size_t i) const {
         if (!to_disc.empty()) return to_disc[l * sample.size() + i];
@@ -101,6 +97,9 @@ struct SurfaceChunk {
     std::span<float> visibility_of(std::size_t l) {
         return visibility.empty() ? std::span<float>()
                                   : std::span(visibility).subspan(l * sample.size(), sample.size());
+    }
+    bool sees_light(std::size_t l, std::size_t i) const {
+        return visibility.empty() || visibility[l * sample.size() + i] != 0.0f;
     }
     const trace::Ray& ray_of_hit(std::size_t i) const { return rays[sample[i]]; }
 

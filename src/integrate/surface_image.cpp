@@ -33,14 +33,9 @@ void SurfaceImage::normals(std::span<const trace::Hit> hits, std::span<const glm
     find_normals(setup_, hits, x, noise_shift, normal, counters);
 }
 
-void SurfaceImage::evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const {
-    evaluate_with_costs(samples, radiance, {}, counters);
-}
-
-void SurfaceImage::evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance,
-                                       std::span<SampleCost> costs, Counters& counters) const {
+void SurfaceImage::evaluate(const SampleBatch& samples, const SampleOut& out, Counters& counters) const {
     thread_local SurfaceWork work;
-    integrate_surface(setup_, samples, radiance, costs, work, counters);
+    integrate_surface(setup_, samples, out, work, counters);
 }
 
 }  // namespace strata::integrate

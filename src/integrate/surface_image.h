@@ -13,9 +13,7 @@ class SurfaceImage final : public ImageFunction {
     SurfaceImage(const scene::Scene& scene, Tracer tracer, std::uint32_t step_limit = trace::kStepLimit)
         : setup_(scene, tracer, step_limit) {}
 
-    void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const override;
-    void evaluate_with_costs(const SampleBatch& samples, std::span<glm::vec3> radiance, std::span<SampleCost> costs,
-                             Counters& counters) const override;
+    void evaluate(const SampleBatch& samples, const SampleOut& out, Counters& counters) const override;
 
     // Beams are for many rays.
     std::size_t batch_samples() const override { return setup_.screen_beams ? 65536 : 2048; }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "src/integrate/channels.h"
+#include "src/integrate/fill_channels.h"
 #include "src/integrate/light.h"
 #include "src/integrate/medium.h"
 #include "src/integrate/phase_meter.h"
@@ -12,18 +12,14 @@
 
 namespace strata::integrate {
 
-void put_back(const SurfaceChunk& chunk, std::span<glm::vec3> radiance, std::span<SampleCost> costs,
-              Counters& counters) {
+void put_back(const SurfaceChunk& chunk, std::span<glm::vec3> radiance, Counters& counters) {
     PhaseMeter meter(counters);
     for (std::size_t i = 0; i < chunk.order.size(); ++i) radiance[chunk.order[i]] = chunk.radiance[i];
-    if (!costs.empty()) {
-        for (std::size_t i = 0; i < chunk.order.size(); ++i) costs[chunk.order[i]] = chunk.costs[i];
-    }
     meter.book(Phase::shading);
 }
 
-void integrate_surface(const SurfaceSetup& setup, const SampleBatch& samples, std::span<glm::vec3> radiance,
-                       std::span<SampleCost> costs, SurfaceWork& work, Counters& counters) {
+void integrate_surface(const SurfaceSetup& setup, const SampleBatch& samples, const SampleOut& out, SurfaceWork& work,
+                       Counters& counters) {
     SurfaceChunk& chunk = work.chunk;
     chunk.reserve(std::min(kChunk, samples.u.size()), setup.field.drifts(), setup.has_shadows);
     follow_beams(setup, samples, work.batch, counters);
@@ -34,8 +30,8 @@ void integrate_surface(const SurfaceSetup& setup, const SampleBatch& samples, st
         resolve_hits(setup, chunk, counters);
         light_hits(setup, chunk, counters);
         apply_medium(setup, chunk, counters);
-        if (!costs.empty()) fill_channels(setup, chunk);
-        put_back(chunk, radiance, costs, counters);
+        fill_channels(setup, samples, chunk, out);
+        put_back(chunk, out.radiance, counters);
     }
 }
 

@@ -1,5 +1,5 @@
 // From a batch of samples to their radiance, chunk by chunk through the stages of place.h, cull.h, trace_rays.h,
-// resolve.h, light.h, medium.h and channels.h.
+// resolve.h, light.h, medium.h and fill_channels.h.
 #pragma once
 
 #include "src/integrate/cull.h"
@@ -12,12 +12,10 @@ struct SurfaceWork {
     SurfaceChunk chunk;
 };
 
-// Puts what the stages found of a chunk where the batch's samples have it. costs: empty if not asked for.
-void put_back(const SurfaceChunk& chunk, std::span<glm::vec3> radiance, std::span<SampleCost> costs,
-              Counters& counters);
+// Puts the radiance of a chunk where the batch's samples have it.
+void put_back(const SurfaceChunk& chunk, std::span<glm::vec3> radiance, Counters& counters);
 
-// costs: empty if not asked for.
-void integrate_surface(const SurfaceSetup& setup, const SampleBatch& samples, std::span<glm::vec3> radiance,
-                       std::span<SampleCost> costs, SurfaceWork& work, Counters& counters);
+void integrate_surface(const SurfaceSetup& setup, const SampleBatch& samples, const SampleOut& out, SurfaceWork& work,
+                       Counters& counters);
 
 }  // namespace strata::integrate

@@ -37,7 +37,8 @@ std::int64_t total_owners(const film::Rect& window, const estimate::Estimator& e
 }  // namespace
 
 film::FilmExtras film_extras(const RenderOptions& options, const estimate::Estimator& estimator) {
-    return {.costs = options.with_costs, .weights = options.with_weights && estimator.has_random_weights()};
+    return {.channel_values = options.channels.values(),
+            .weights = options.with_weights && estimator.has_random_weights()};
 }
 
 film::Rect cells_of(const film::Rect& window, const estimate::Estimator& estimator) {

@@ -17,7 +17,7 @@ struct RenderOptions {
     int tile = 32;                                  // side in pixels, >= 1
     parallel::ProgressCallback on_progress;         // may be empty; called from any thread, one call at a time
     const parallel::CancelToken* cancel = nullptr;  // looked at between batches
-    bool with_costs = false;                        // films hold what pixels cost
+    integrate::ChannelSet channels{};               // that films hold beside radiance
     film::RowKeeper* keeper = nullptr;  // of pixels that an earlier process finished, and of those that this one does
     const film::ShardPicture* shard = nullptr;  // render this part, whose window is the one to be rendered; null: all
     bool with_weights = false;  // films hold pixels' sums of weights, where these differ from seed to seed

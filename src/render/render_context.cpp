@@ -26,30 +26,26 @@ void RenderContext::run(std::int64_t count, const std::function<void(Worker&, st
 
 bool RenderContext::evaluate(Worker& worker, std::span<glm::vec3> radiance) const {
     const std::size_t count = worker.samples.u.size(), batch = image.batch_samples();
-    if (options.with_costs) worker.costs.resize(count);
+    const std::size_t values = options.channels.values();
+    worker.channels.resize(count * values);
     for (std::size_t first = 0; first < count; first += batch) {
         if (cancelled()) return false;
         const std::size_t size = std::min(batch, count - first);
         const integrate::SampleBatch part = worker.samples.batch(first, size);
-        if (options.with_costs) {
-            const std::span<integrate::SampleCost> costs = std::span(worker.costs).subspan(first, size);
-            image.evaluate_with_costs(part, radiance.subspan(first, size), costs, worker.counters);
-        } else {
-            image.evaluate(part, radiance.subspan(first, size), worker.counters);
-        }
+        const std::span<float> channels = std::span(worker.channels).subspan(first * values, size * values);
+        image.evaluate(part, {radiance.subspan(first, size), options.channels, channels}, worker.counters);
         worker.counters.rays += size;
     }
     return true;
 }
 
-glm::vec2 RenderContext::mean_cost(const Worker& worker, std::size_t owner) const {
-    const std::size_t n = static_cast<std::size_t>(estimator.sample_count());
-    double steps = 0, evaluations = 0;
-    for (std::size_t i = owner * n; i < (owner + 1) * n; ++i) {
-        steps += worker.costs[i].steps;
-        evaluations += worker.costs[i].noise_evaluations;
-    }
-    return glm::vec2(glm::dvec2(steps, evaluations) / static_cast<double>(n));
+estimate::PixelSamples RenderContext::samples_of(const Worker& worker, std::size_t owner) const {
+    const std::size_t n = static_cast<std::size_t>(estimator.sample_count()), values = options.channels.values();
+    const estimate::SampleSet& samples = worker.samples;
+    const std::span<const double> weight(samples.weight);
+    return {worker.owners[owner], std::span(samples.u).subspan(owner * n, n),
+            std::span(samples.v).subspan(owner * n, n), weight.empty() ? weight : weight.subspan(owner * n, n),
+            std::span(worker.channels).subspan(owner * n * values, n * values)};
 }
 
 std::size_t RenderContext::owners_a_batch() const {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "src/estimate/pixel_channels.h"
 #include "src/parallel/thread_pool.h"
 #include "src/render/render.h"
 
@@ -16,7 +17,7 @@ struct alignas(64) Worker {
     estimate::SampleSet samples;
     std::vector<glm::ivec2> owners;  // pixels or cells of `samples`
     std::vector<glm::vec3> radiance;
-    std::vector<integrate::SampleCost> costs;  // empty unless asked for
+    std::vector<float> channels;  // of the samples: RenderOptions::channels.values() each
     integrate::Counters counters;
     double cpu_seconds = 0;
 };
@@ -34,8 +35,8 @@ class RenderContext {
 
     bool cancelled() const { return options.cancel != nullptr && options.cancel->requested(); }
 
-    // Of the samples of worker.owners[owner], which were evaluated with costs.
-    glm::vec2 mean_cost(const Worker& worker, std::size_t owner) const;
+    // The samples of worker.owners[owner], for its channels.
+    estimate::PixelSamples samples_of(const Worker& worker, std::size_t owner) const;
 
     // Whether these pixels of one strip need not be rendered.
     bool is_kept(const film::Rect& part) const { return options.keeper != nullptr && options.keeper->has(part); }

@@ -17,6 +17,22 @@ constexpr std::size_t kRunBytes = 8u << 20;  // of samples in the buffer
 constexpr std::int64_t kRunRows = 48;        // bounds the rows of pixels in work
 constexpr int kStripColumns = 64;
 
+// A channel beside colour that is weighted as colour is: it has sums of its own, so that colour without it takes no
+// more work or memory.
+struct Layer {
+    // From a block's values, of which each sample has `stride`, to those of the run from its sample `offset` on.
+    void gather(std::span<const float> block, std::size_t stride, std::size_t offset) {
+        for (std::size_t i = 0; i * stride < block.size(); ++i) {
+            std::copy_n(block.begin() + static_cast<std::ptrdiff_t>(i * stride + entry.first), entry.count,
+                        &values[offset + i].x);
+        }
+    }
+
+    integrate::ChannelSet::Entry entry;
+    std::vector<glm::vec3> values;  // of the run's samples
+    estimate::PixelAccumulators accumulators;
+};
+
 class SharedRender {
   public:
     SharedRender(RenderContext& context, const film::StripLayout& layout, film::StripSink sink,
@@ -32,10 +48,10 @@ class SharedRender {
     };
 
     glm::ivec2 cell(std::int64_t index) const;
-    estimate::CellSamples samples_of(std::int64_t index, const Run& run) const;
+    estimate::CellSamples samples_of(std::int64_t index, const Run& run, std::span<const glm::vec3> values) const;
     int accumulator_rows() const;
     void evaluate(const Run& run);
-    void set_costs(const Worker& worker);
+    void filter_own_channels(const Worker& worker);
     void give_away(Worker& worker, int strips_end);
     void evaluate_block(Worker& worker, std::int64_t first, std::int64_t last, const Run& run);
     void add_up(const Run& run);
@@ -56,15 +72,24 @@ class SharedRender {
     std::vector<float> fraction_u_, fraction_v_;  // of the run's samples
     std::vector<glm::vec3> radiance_;
     estimate::PixelAccumulators accumulators_;
+    std::vector<Layer> layers_;
     int finished_end_;   // pixel rows above are in the film
     int given_end_ = 0;  // strips above are given away
 };
 
-std::int64_t cells_in_a_run(const film::Rect& cells, std::size_t samples_a_cell) {
-    const std::size_t bytes = samples_a_cell * (2 * sizeof(float) + sizeof(glm::vec3));
+std::int64_t cells_in_a_run(const film::Rect& cells, std::size_t samples_a_cell, std::size_t layers) {
+    const std::size_t bytes = samples_a_cell * (2 * sizeof(float) + (1 + layers) * sizeof(glm::vec3));
     const std::int64_t total = std::int64_t{1} * cells.width() * cells.height();
     const std::int64_t fitting = static_cast<std::int64_t>(std::max<std::size_t>(1, kRunBytes / bytes));
     return std::min({fitting, kRunRows * cells.width(), total});
+}
+
+std::vector<integrate::ChannelSet::Entry> layer_entries(const integrate::ChannelSet& channels) {
+    std::vector<integrate::ChannelSet::Entry> entries;
+    for (const integrate::ChannelSet::Entry& entry : channels.entries()) {
+        if (entry.channel->filter == integrate::ChannelFilter::picture) entries.push_back(entry);
+    }
+    return entries;
 }
 
 // Strips that hold rows of one run, finished or given away beside the next; with the rows that wait for others.
@@ -91,12 +116,18 @@ SharedRender::SharedRender(RenderContext& context, const film::StripLayout& layo
       cells_(window_.height() == 0 ? window_ : cells_of(window_, context.estimator)),
       reach_(context.estimator.weights().reach()),
       samples_a_cell_(static_cast<std::size_t>(context.estimator.sample_count())),
-      cells_a_run_(cells_in_a_run(cells_, samples_a_cell_)),
+      cells_a_run_(cells_in_a_run(cells_, samples_a_cell_, layer_entries(context.options.channels).size())),
       fraction_u_(static_cast<std::size_t>(cells_a_run_) * samples_a_cell_),
       fraction_v_(fraction_u_.size()),
       radiance_(fraction_u_.size()),
       accumulators_(window_, context.estimator.weights(), accumulator_rows()),
-      finished_end_(window_.y0) {}
+      finished_end_(window_.y0) {
+    for (const integrate::ChannelSet::Entry& entry : layer_entries(context.options.channels)) {
+        layers_.push_back({entry,
+                           std::vector<glm::vec3>(radiance_.size(), glm::vec3(0.0f)),
+                           {window_, context.estimator.weights(), accumulator_rows()}});
+    }
+}
 
 // Rows seen by a run's cells, which may begin and end within a row, and rows that an earlier run left unfinished.
 int SharedRender::accumulator_rows() const {
@@ -108,11 +139,12 @@ glm::ivec2 SharedRender::cell(std::int64_t index) const {
     return {cells_.x0 + static_cast<int>(index % cells_.width()), cells_.y0 + static_cast<int>(index / cells_.width())};
 }
 
-estimate::CellSamples SharedRender::samples_of(std::int64_t index, const Run& run) const {
+// values: radiance, or a channel of the same samples.
+estimate::CellSamples SharedRender::samples_of(std::int64_t index, const Run& run,
+                                               std::span<const glm::vec3> values) const {
     const std::size_t first = static_cast<std::size_t>(index - run.first) * samples_a_cell_;
     return {cell(index), std::span(fraction_u_).subspan(first, samples_a_cell_),
-            std::span(fraction_v_).subspan(first, samples_a_cell_),
-            std::span(radiance_).subspan(first, samples_a_cell_)};
+            std::span(fraction_v_).subspan(first, samples_a_cell_), values.subspan(first, samples_a_cell_)};
 }
 
 void SharedRender::render() {
@@ -154,16 +186,18 @@ void SharedRender::evaluate_block(Worker& worker, std::int64_t first, std::int64
     if (!context_.evaluate(worker, std::span(radiance_).subspan(offset, count))) return;
     std::copy_n(worker.samples.fraction_u.begin(), count, fraction_u_.begin() + static_cast<std::ptrdiff_t>(offset));
     std::copy_n(worker.samples.fraction_v.begin(), count, fraction_v_.begin() + static_cast<std::ptrdiff_t>(offset));
-    if (context_.options.with_costs) set_costs(worker);
+    if (!context_.options.channels.empty()) filter_own_channels(worker);
+    for (Layer& layer : layers_) layer.gather(worker.channels, context_.options.channels.values(), offset);
     context_.progress.add(last - first, static_cast<std::int64_t>(count));
 }
 
 // A cell is a pixel's square: its samples are those taken for that pixel.
-void SharedRender::set_costs(const Worker& worker) {
+void SharedRender::filter_own_channels(const Worker& worker) {
     for (std::size_t i = 0; i < worker.owners.size(); ++i) {
         const auto& [x, y] = std::pair(worker.owners[i].x, worker.owners[i].y);
         if (x < window_.x0 || x >= window_.x1 || y < window_.y0 || y >= window_.y1) continue;
-        film_.open(film_.layout().strip_at(y)).set_cost(x, y, context_.mean_cost(worker, i));
+        film::Film& film = film_.open(film_.layout().strip_at(y));
+        estimate::filter_own(context_.options.channels, context_.samples_of(worker, i), film.channels_at(x, y));
     }
 }
 
@@ -198,8 +232,13 @@ void SharedRender::for_each_strip(int rows_end, const Action& action) {
 }
 
 void SharedRender::finish_rows(int rows_end, int x0, int x1) {
-    for_each_strip(rows_end,
-                   [&](int strip, int begin, int end) { accumulators_.finish(begin, end, x0, x1, film_.open(strip)); });
+    for_each_strip(rows_end, [&](int strip, int begin, int end) {
+        film::Film& film = film_.open(strip);
+        for (Layer& layer : layers_) {
+            layer.accumulators.finish_channel(begin, end, x0, x1, layer.entry.first, layer.entry.count, film);
+        }
+        accumulators_.finish(begin, end, x0, x1, film);
+    });
 }
 
 void SharedRender::note_rows(int rows_end) {
@@ -216,7 +255,8 @@ void SharedRender::add_to_strip(const Run& run, int x0, int x1) {
         const std::int64_t last = std::min(run.last, row_start + x1 + reach_);
         for (std::int64_t index = first; index < last; ++index) {
             if (context_.cancelled()) return;
-            accumulators_.add(samples_of(index, run), x0, x1);
+            accumulators_.add(samples_of(index, run, radiance_), x0, x1);
+            for (Layer& layer : layers_) layer.accumulators.add(samples_of(index, run, layer.values), x0, x1);
         }
     }
 }

@@ -45,7 +45,10 @@ bool render_pixels(RenderContext& context, Worker& worker, film::Film& film) {
         const WeightedMean pixel = weighted_mean(radiance.subspan(p * n, n), pixel_weight);
         film.finish(x, y, pixel.mean);
         if (!film.weights().empty()) film.set_weight(x, y, pixel.weight);
-        if (context.options.with_costs) film.set_cost(x, y, context.mean_cost(worker, p));
+        if (context.options.channels.empty()) continue;
+        const estimate::PixelSamples samples = context.samples_of(worker, p);
+        estimate::filter_own(context.options.channels, samples, film.channels_at(x, y));
+        estimate::filter_weighted(context.options.channels, samples, film.channels_at(x, y));
     }
     const auto pixels = static_cast<std::int64_t>(worker.owners.size());
     context.progress.add(pixels, pixels * context.estimator.sample_count());

@@ -36,6 +36,14 @@ Camera::Camera(const scene::Camera& camera, const scene::Film& film)
 
 // The rays end at c + e on the plane at unit depth, c the square's centre and |e| <= r across the view: the tangent of
 // their angle to c is |c x e| / (c.c + c.e), at most |c| r / (c.c - |c across| r).
+std::optional<glm::dvec2> Camera::on_screen(const glm::dvec3& direction) const {
+    const double depth = glm::dot(direction, forward_);
+    if (depth <= 0.0) return std::nullopt;
+    const double side = depth * pixel_;
+    return glm::dvec2(0.5 * width_ + glm::dot(direction, right_) / side,
+                      0.5 * height_ - glm::dot(direction, up_) / side);
+}
+
 CameraCone Camera::cone(double u, double v, double side) const {
     const glm::dvec3 centre = toward(u + 0.5 * side, v + 0.5 * side);
     const double squared = glm::dot(centre, centre), length = std::sqrt(squared);

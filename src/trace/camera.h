@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "src/scene/scene.h"
 
@@ -25,6 +26,9 @@ class Camera {
 
     const glm::dvec3& position() const { return position_; }
 
+    // Along which depth is measured, of unit length.
+    const glm::dvec3& view_axis() const { return forward_; }
+
     // Itself in other axes from the same origin: the columns of `axes`, of unit length and across each other.
     Camera turned(const glm::dmat3& axes) const {
         Camera camera = *this;
@@ -46,6 +50,10 @@ class Camera {
     glm::dvec2 on_plane(double u, double v) const {
         return {(u - 0.5 * width_) * pixel_, (0.5 * height_ - v) * pixel_};
     }
+
+    // Where something in a direction is seen, of any length: the (u, v) whose ray leads there. Nothing for what is not
+    // before the camera.
+    std::optional<glm::dvec2> on_screen(const glm::dvec3& direction) const;
 
     // Around the rays through a square of the screen, given by its corner and side.
     CameraCone cone(double u, double v, double side) const;

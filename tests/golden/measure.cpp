@@ -11,6 +11,12 @@ namespace strata::golden {
 
 namespace {
 
+integrate::ChannelSet channels_of(const GoldenScene& golden) {
+    std::vector<const integrate::Channel*> channels;
+    for (const std::string& name : golden.channels) channels.push_back(integrate::find_channel(name));
+    return integrate::ChannelSet(channels);
+}
+
 render::RenderResult render_golden(const GoldenScene& golden, const scene::Scene& scene, const Cut& cut) {
     const auto image = integrate::make_image(scene, golden.tracer);
     const estimate::EstimatorSettings settings = estimate::estimator_settings(scene);
@@ -19,7 +25,7 @@ render::RenderResult render_golden(const GoldenScene& golden, const scene::Scene
     render::RenderOptions options;
     options.threads = cut.threads;
     options.tile = cut.tile;
-    options.with_costs = golden.with_costs;
+    options.channels = channels_of(golden);
     if (golden.passes == 1) return render::render(*image, estimate::Estimator(settings), window, options);
     return render::render_progressively(*image, settings, window, {.passes = golden.passes}, options).render;
 }
@@ -31,18 +37,22 @@ image::Picture picture_of(const film::Film& film, const scene::Film& frame) {
     return picture;
 }
 
-std::string digest_of_costs(const film::Film& film, glm::length_t which) {
+// Of all pixels, all components of one channel.
+std::string channel_digest(const film::Film& film, std::size_t of_pixel, const integrate::ChannelSet::Entry& entry) {
     std::vector<float> values;
-    for (const glm::vec2& cost : film.costs()) values.push_back(cost[which]);
+    for (std::size_t i = entry.first; i < film.channels().size(); i += of_pixel) {
+        for (std::size_t c = 0; c < entry.count; ++c) values.push_back(film.channels()[i + c]);
+    }
     return digest_text(std::span<const float>(values));
 }
 
-Record record_of(const render::RenderResult& result, const image::Picture& picture) {
+Record record_of(const GoldenScene& golden, const render::RenderResult& result, const image::Picture& picture) {
     Record record;
     record.digests.emplace_back("pixels", pixels_digest(picture));
-    if (!result.film.costs().empty()) {
-        record.digests.emplace_back("steps_aov", digest_of_costs(result.film, 0));
-        record.digests.emplace_back("evals_aov", digest_of_costs(result.film, 1));
+    const integrate::ChannelSet channels = channels_of(golden);
+    for (const integrate::ChannelSet::Entry& entry : channels.entries()) {
+        record.digests.emplace_back(std::string(entry.channel->name) + "_aov",
+                                    channel_digest(result.film, channels.values(), entry));
     }
     const integrate::Counters& c = result.counters;
     record.counts = {{"total.rays", c.rays},
@@ -80,7 +90,7 @@ Measurement measure(const GoldenScene& golden, const Cut& cut) {
     const render::RenderResult result = render_golden(golden, scene, cut);
     Measurement measurement;
     measurement.picture = picture_of(result.film, scene.film);
-    measurement.record = record_of(result, measurement.picture);
+    measurement.record = record_of(golden, result, measurement.picture);
     return measurement;
 }
 

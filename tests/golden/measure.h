@@ -14,7 +14,7 @@ namespace strata::golden {
 
 // In the order in which they are written down.
 struct Record {
-    std::vector<std::pair<std::string, std::string>> digests;   // "pixels"; "steps_aov", "evals_aov" where asked for
+    std::vector<std::pair<std::string, std::string>> digests;   // "pixels"; "steps_aov" and so on where asked for
     std::vector<std::pair<std::string, std::uint64_t>> counts;  // "total.rays"; "shadows.steps": of a phase
 };
 

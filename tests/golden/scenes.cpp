@@ -39,6 +39,7 @@ const Keys kIsosurface =
                     "surface.seed=9",          "camera.position=[0,2,-5]",     "camera.look_at=[0,0,0]",
                     "camera.far=20",           "sun.direction=[-0.5,0.8,-0.6]"};
 
+const std::vector<std::string> kCosts{"steps", "evals"};
 const Keys kOneOctave{"surface.octaves=1"};
 const Keys kSixteenOctaves{"surface.octaves=16", "sampling.N=1"};
 const Keys kNoShadows{"sun.shadows=false"};
@@ -62,7 +63,7 @@ std::vector<GoldenScene> grounds() {
         {.name = "terrain_drift", .keys = kTerrain + kShutter + Keys{"surface.drift=[3,0,2]", "sampling.time_order=3"}},
         {.name = "terrain_crop", .keys = kTerrain + kStratified, .crop = film::Rect{10, 5, 28, 17}},
         {.name = "terrain_passes", .keys = kTerrain + kStratified + Keys{"sampling.N=1"}, .passes = 4},
-        {.name = "terrain_aov", .keys = kTerrain, .with_costs = true},
+        {.name = "terrain_aov", .keys = kTerrain, .channels = kCosts},
         {.name = "terrain_many_rays",
          .keys = kTerrain + Keys{"sampling.N=8", "surface.octaves=5", "sampling.tolerance=1"},
          .crop = film::Rect{8, 9, 24, 17}},
@@ -75,7 +76,7 @@ std::vector<GoldenScene> grounds() {
         {.name = "hyperterrain_1_octave", .keys = kHyperterrain + kOneOctave},
         {.name = "hyperterrain_16_octaves", .keys = kHyperterrain + kSixteenOctaves},
         {.name = "hyperterrain_drift", .keys = kHyperterrain + kShutter + Keys{"surface.drift=[1,2,-1]"}},
-        {.name = "hyperterrain_aov", .keys = kHyperterrain + kNoShadows + kStratified, .with_costs = true},
+        {.name = "hyperterrain_aov", .keys = kHyperterrain + kNoShadows + kStratified, .channels = kCosts},
         {.name = "hyperterrain_camera_keys",
          .keys = kHyperterrain + kShutter + camera_keys("[0.3,0.9,0]", "[0.5,1.1,0.4]") +
                  Keys{"camera.interpolation=linear"}},
@@ -98,7 +99,7 @@ std::vector<GoldenScene> bodies() {
         {.name = "isosurface_16_octaves", .keys = kIsosurface + kSixteenOctaves + kStratified},
         {.name = "isosurface_box_aov",
          .keys = kIsosurface + Keys{"surface.bound=box", "surface.bound_size=[1.5,1,1.2]"},
-         .with_costs = true},
+         .channels = kCosts},
         {.name = "isosurface_all_motion",
          .keys = kIsosurface + kShutter + spin + camera_keys("[0,2,-5]", "[1,2.2,-4.5]") +
                  Keys{"surface.drift=[0.5,1,0]", "sampling.estimator=sobol"}},
@@ -138,10 +139,10 @@ std::vector<GoldenScene> estimators() {
         return Keys{"film.width=24", "film.height=14", "image=" + image};
     };
     return {
-        {.name = "none_terrain_aov", .keys = kTerrain + by("none", 1, 1), .with_costs = true},
+        {.name = "none_terrain_aov", .keys = kTerrain + by("none", 1, 1), .channels = kCosts},
         {.name = "super_hyperterrain", .keys = kHyperterrain + by("super", 2, 4)},
         {.name = "jittered_isosurface", .keys = kIsosurface + by("jittered", 2, 3)},
-        {.name = "random_planet_aov", .keys = kPlanet + by("random", 2, 6), .with_costs = true},
+        {.name = "random_planet_aov", .keys = kPlanet + by("random", 2, 6), .channels = kCosts},
         {.name = "none_zoneplate", .keys = pattern("zoneplate") + by("none", 1, 1)},
         {.name = "super_zoneplate", .keys = pattern("zoneplate") + by("super", 3, 1)},
         {.name = "uniform_zoneplate", .keys = pattern("zoneplate") + by("uniform", 3, 2)},
@@ -183,7 +184,7 @@ std::vector<GoldenScene> soft_lights() {
         {.name = "soft_sun", .keys = kTerrain + soft},
         {.name = "soft_sun_daylight",
          .keys = kTerrain + soft + Keys{"sky.model=daylight", "scale.metres=300"} + kStratified},
-        {.name = "sky_rays", .keys = kTerrain + rays + kStratified, .with_costs = true},
+        {.name = "sky_rays", .keys = kTerrain + rays + kStratified, .channels = kCosts},
         {.name = "sky_rays_daylight",
          .keys = kTerrain + soft + rays + Keys{"sky.model=daylight", "scale.metres=300", "sky.gain=1.5"},
          .crop = film::Rect{8, 9, 24, 17}},

@@ -13,10 +13,10 @@ namespace strata::golden {
 
 struct GoldenScene {
     std::string name;
-    std::vector<std::string> keys;     // as for --set, over the defaults: keys outlive the structs that hold them
-    int passes = 1;                    // of N x N samples
-    std::optional<film::Rect> crop{};  // half-open; nothing: the whole frame
-    bool with_costs = false;           // steps and evaluations of each pixel as well
+    std::vector<std::string> keys;        // as for --set, over the defaults: keys outlive the structs that hold them
+    int passes = 1;                       // of N x N samples
+    std::optional<film::Rect> crop{};     // half-open; nothing: the whole frame
+    std::vector<std::string> channels{};  // of each pixel as well
     integrate::Tracer tracer = integrate::Tracer::fast;
     std::string relief{};  // [[relief]] terms, as in a scene file; empty: the sum of octaves of the keys
 };

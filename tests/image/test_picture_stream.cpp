@@ -140,12 +140,15 @@ TEST_CASE("an EXR's channels beside its colours keep their values to the last bi
     const Picture picture = test_picture(70, 150);
     std::vector<float> extra;
     for (std::size_t i = 0; i < 2 * picture.pixels(); ++i) extra.push_back(1e5f + static_cast<float>(i) / 7);
-    for (const ExrLayout layout : {ExrLayout::scanlines, ExrLayout::tiles}) {
+    const std::vector<std::string> in_order{"evals.Y", "steps.Y"}, in_another{"N.X", "Z"};
+    for (const auto& [layout, extra_names] :
+         {std::pair(ExrLayout::scanlines, in_order), std::pair(ExrLayout::tiles, in_order),
+          std::pair(ExrLayout::scanlines, in_another)}) {
         const WriteOptions plain{.exr_layout = layout};
         write_picture(folder / "plain.exr", picture, {}, plain);
         for (const bool is_partial : {false, true}) {
             WriteOptions options = plain;
-            options.exr_extra = {"evals.Y", "steps.Y"};
+            options.exr_extra = extra_names;
             PictureStream stream(folder / "a.exr", picture.shape(), {}, options);
             for (int y = 0; y < 150; y += kStripRows) {
                 const auto begin = static_cast<std::size_t>(y * 70);
@@ -160,12 +163,15 @@ TEST_CASE("an EXR's channels beside its colours keep their values to the last bi
             }
             const auto input = OIIO::ImageInput::open((folder / "a.exr").string());
             REQUIRE(input);
-            REQUIRE(input->spec().channelnames == std::vector<std::string>{"R", "G", "B", "evals.Y", "steps.Y"});
+            REQUIRE(input->spec().nchannels == 5);
             std::vector<float> all(5 * picture.pixels());
             REQUIRE(input->read_image(0, 0, 0, 5, OIIO::TypeDesc::FLOAT, all.data()));
+            // A reader has an order of its own.
+            const auto first = static_cast<std::size_t>(input->spec().channelindex(extra_names[0]));
+            const auto second = static_cast<std::size_t>(input->spec().channelindex(extra_names[1]));
             std::size_t wrong = 0;
             for (std::size_t i = 0; i < picture.pixels(); ++i) {
-                wrong += all[5 * i + 3] != extra[2 * i] || all[5 * i + 4] != extra[2 * i + 1] ? 1 : 0;
+                wrong += all[5 * i + first] != extra[2 * i] || all[5 * i + second] != extra[2 * i + 1] ? 1 : 0;
             }
             CHECK(wrong == 0);
             CHECK(read_picture(folder / "a.exr").rgb == read_picture(folder / "plain.exr").rgb);
@@ -206,10 +212,9 @@ TEST_CASE("a streamed picture that is not finite is refused with the count and p
     CHECK(folder.names().size() == 0);
 }
 
-TEST_CASE("rows that are no strip, and channels that an EXR would sort, are refused") {
+TEST_CASE("rows that are no strip are refused") {
     const ScratchFolder folder;
     const Picture picture = test_picture(10, 100);
-    CHECK_THROWS_AS(PictureStream(folder / "a.exr", picture.shape(), {}, {.exr_extra = {"b.Y", "a.Y"}}), ImageError);
     PictureStream stream(folder / "a.png", picture.shape(), {}, {});
     CHECK_THROWS_AS(stream.write(std::span(picture.rgb).subspan(0, 30)), ImageError);
     CHECK_THROWS_AS(stream.write(picture.rgb), ImageError);

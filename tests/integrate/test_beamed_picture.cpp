@@ -153,7 +153,7 @@ TEST_CASE("a sample has the same bits alone, in a batch, in a shuffled batch, an
         int alone_differs = 0, shuffled_differs = 0, split_differs = 0;
         for (std::size_t i = 0; i < count; i += 5) {
             glm::vec3 alone;
-            image.evaluate(samples.batch(i, 1), {&alone, 1}, alone_work);
+            image.evaluate(samples.batch(i, 1), std::span(&alone, 1), alone_work);
             alone_differs += !same_bits(alone, whole[i]);
         }
         std::vector<std::size_t> order(count);

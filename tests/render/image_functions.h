@@ -18,11 +18,11 @@ class Formula : public integrate::ImageFunction {
   public:
     explicit Formula(Function function) : function_(std::move(function)) {}
 
-    void evaluate(const integrate::SampleBatch& samples, std::span<glm::vec3> radiance,
+    void evaluate(const integrate::SampleBatch& samples, const integrate::SampleOut& out,
                   integrate::Counters& counters) const override {
         counters.hits += samples.u.size();
         for (std::size_t i = 0; i < samples.u.size(); ++i) {
-            radiance[i] = function_(samples.u[i], samples.v[i], samples.t[i]);
+            out.radiance[i] = function_(samples.u[i], samples.v[i], samples.t[i]);
         }
     }
 

@@ -25,8 +25,8 @@ class CancelAfter : public ImageFunction {
   public:
     CancelAfter(CancelToken& token, std::int64_t samples) : token_(token), left_(samples) {}
 
-    void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const override {
-        image_.evaluate(samples, radiance, counters);
+    void evaluate(const SampleBatch& samples, const SampleOut& out, Counters& counters) const override {
+        image_.evaluate(samples, out, counters);
         if ((left_ -= static_cast<std::int64_t>(samples.u.size())) <= 0) token_.request();
     }
 

@@ -1,6 +1,8 @@
 // What pixels cost: accounts that add up to the counters, and cost nothing when they are not asked for.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -26,18 +28,24 @@ scene::Scene small_scene(solid::Kind kind, EstimatorKind estimator) {
     return scene;
 }
 
+ChannelSet costs() {
+    const std::array asked{find_channel("steps"), find_channel("evals")};
+    return ChannelSet(asked);
+}
+
 RenderResult render_scene(const scene::Scene& scene, const Rect& window, int threads, int tile, bool with_costs,
                           Tracer tracer = Tracer::fast) {
     RenderOptions options;
     options.threads = threads;
     options.tile = tile;
-    options.with_costs = with_costs;
+    if (with_costs) options.channels = costs();
     return render::render(SurfaceImage(scene, tracer), Estimator(estimator_settings(scene)), window, options);
 }
 
-glm::dvec2 sum(const std::vector<glm::vec2>& costs) {
+// Of steps and evals, which films hold side by side.
+glm::dvec2 sum(const std::vector<float>& costs) {
     glm::dvec2 total(0.0);
-    for (const glm::vec2& cost : costs) total += glm::dvec2(cost);
+    for (std::size_t i = 0; i < costs.size(); i += 2) total += glm::dvec2(costs[i], costs[i + 1]);
     return total;
 }
 
@@ -59,7 +67,7 @@ TEST_CASE("the costs of all pixels are all steps and evaluations of rays, normal
             const RenderResult result =
                 render_scene(small_scene(kind, EstimatorKind::stratified), kFrame, 2, 16, true, tracer);
             REQUIRE(result.counters.shadow_rays > 0);
-            const glm::dvec2 total = 4.0 * sum(result.film.costs());
+            const glm::dvec2 total = 4.0 * sum(result.film.channels());
             // Four samples a pixel: means are exact in float.
             CHECK(total == own_work(result.counters));
         }
@@ -71,11 +79,11 @@ TEST_CASE("costs of shared samples are those of a pixel's own cell, whatever the
         scene::Scene scene = small_scene(kind, EstimatorKind::shared);
         scene.sampling.m = 1;  // no sample reaches another pixel: no cells beyond the frame
         const RenderResult own = render_scene(scene, kFrame, 1, 32, true);
-        CHECK(4.0 * sum(own.film.costs()) == own_work(own.counters));
+        CHECK(4.0 * sum(own.film.channels()) == own_work(own.counters));
         for (const int m : {4, 9, 100}) {
             scene.sampling.m = m;
             const RenderResult shared = render_scene(scene, kFrame, 3, 32, true);
-            CHECK(shared.film.costs() == own.film.costs());
+            CHECK(shared.film.channels() == own.film.channels());
             CHECK(shared.counters.steps >= own.counters.steps);
         }
     }
@@ -87,18 +95,16 @@ TEST_CASE("costs do not depend on threads, tiles and crop, and change no pixel")
         const scene::Scene scene = small_scene(solid::kKind<solid::DisplacedPlane>, estimator);
         const RenderResult whole = render_scene(scene, kFrame, 1, 32, true);
         const RenderResult plain = render_scene(scene, kFrame, 1, 32, false);
-        CHECK(plain.film.costs().empty());
+        CHECK(plain.film.channels().empty());
         CHECK(plain.film.pixels() == whole.film.pixels());
         CHECK(plain.counters.noise_evaluations == whole.counters.noise_evaluations);
-        CHECK(render_scene(scene, kFrame, 4, 7, true).film.costs() == whole.film.costs());
+        CHECK(render_scene(scene, kFrame, 4, 7, true).film.channels() == whole.film.channels());
         const Rect crop{5, 9, 31, 66};
         const RenderResult part = render_scene(scene, crop, 2, 16, true);
         int wrong = 0;
         for (int y = crop.y0; y < crop.y1; ++y) {
             for (int x = crop.x0; x < crop.x1; ++x) {
-                const auto in_part = static_cast<std::size_t>((y - crop.y0) * crop.width() + x - crop.x0);
-                const auto in_whole = static_cast<std::size_t>(y * kFrame.width() + x);
-                wrong += part.film.costs()[in_part] == whole.film.costs()[in_whole] ? 0 : 1;
+                wrong += std::ranges::equal(part.film.channels_at(x, y), whole.film.channels_at(x, y)) ? 0 : 1;
             }
         }
         CHECK(wrong == 0);

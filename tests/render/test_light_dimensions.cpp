@@ -47,7 +47,10 @@ RenderResult render_scene(const scene::Scene& scene, const Rect& window, int thr
     RenderOptions options;
     options.threads = threads;
     options.tile = tile;
-    options.with_costs = with_costs;
+    if (with_costs) {
+        const std::array asked{find_channel("steps"), find_channel("evals")};
+        options.channels = ChannelSet(asked);
+    }
     return render::render(SurfaceImage(scene, Tracer::fast), estimate::Estimator(estimate::estimator_settings(scene)),
                           window, options);
 }
@@ -101,7 +104,9 @@ TEST_CASE("what sky rays cost is in the pixels' costs, which add up to what was 
         const PhaseCost& cost = result.counters.phases[static_cast<std::size_t>(shared)];
         own -= glm::dvec2(cost.steps, cost.noise_evaluations);
     }
-    for (const glm::vec2& cost : result.film.costs()) costs += 4.0 * glm::dvec2(cost);
+    for (std::size_t i = 0; i < result.film.channels().size(); i += 2) {
+        costs += 4.0 * glm::dvec2(result.film.channels()[i], result.film.channels()[i + 1]);
+    }
     CHECK(costs == own);
     CHECK(result.counters.phases[static_cast<std::size_t>(Phase::sky_rays)].steps > 0);
     CHECK(result.counters.phases[static_cast<std::size_t>(Phase::bounces)].steps > 0);

@@ -43,8 +43,8 @@ class SelfCancelling final : public ImageFunction {
   public:
     SelfCancelling(CancelToken& token, std::uint64_t after) : token_(token), after_(after) {}
 
-    void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters& counters) const override {
-        inner_.evaluate(samples, radiance, counters);
+    void evaluate(const SampleBatch& samples, const SampleOut& out, Counters& counters) const override {
+        inner_.evaluate(samples, out, counters);
         if ((evaluated_ += samples.u.size()) >= after_) token_.request();
     }
 

@@ -117,7 +117,7 @@ TEST_CASE("a pixel is the weighted sum of its probed samples") {
                         const double v = y + 0.5 + sample.v;
                         glm::vec3 radiance;
                         Counters counters;
-                        image.evaluate({{&u, 1}, {&v, 1}, {&sample.time_s, 1}}, {&radiance, 1}, counters);
+                        image.evaluate({{&u, 1}, {&v, 1}, {&sample.time_s, 1}}, std::span(&radiance, 1), counters);
                         sum += sample.weight * glm::dvec3(radiance);
                     }
                     const glm::dvec3 error = glm::abs(sum - glm::dvec3(result.film.at(x, y)));

@@ -92,10 +92,10 @@ template <class Image>
 class Stopping final : public integrate::ImageFunction {
   public:
     Stopping(const Image& image, CancelToken& cancel, int batches) : image_(image), cancel_(cancel), left_(batches) {}
-    void evaluate(const integrate::SampleBatch& samples, std::span<glm::vec3> radiance,
+    void evaluate(const integrate::SampleBatch& samples, const integrate::SampleOut& out,
                   integrate::Counters& counters) const override {
         if (left_-- <= 0) cancel_.request();
-        image_.evaluate(samples, radiance, counters);
+        image_.evaluate(samples, out, counters);
     }
 
   private:

@@ -22,10 +22,10 @@ namespace {
 // A picture whose samples cost nothing, but those of some pixels, which hold up the strips behind them.
 class Uneven final : public ImageFunction {
   public:
-    void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters&) const override {
-        for (std::size_t i = 0; i < radiance.size(); ++i) {
+    void evaluate(const SampleBatch& samples, const SampleOut& out, Counters&) const override {
+        for (std::size_t i = 0; i < out.radiance.size(); ++i) {
             const auto u = static_cast<float>(samples.u[i]), v = static_cast<float>(samples.v[i]);
-            radiance[i] = {u, v, u * v};
+            out.radiance[i] = {u, v, u * v};
         }
         if (samples.u[0] < 8 && static_cast<int>(samples.v[0]) % 96 < 8) {
             std::this_thread::sleep_for(std::chrono::milliseconds(3));
@@ -180,9 +180,9 @@ TEST_CASE("what a sink throws ends neither in a deadlock nor in silence, and it 
 TEST_CASE("what an image function throws does not leave threads waiting for its tile") {
     class Broken final : public ImageFunction {
       public:
-        void evaluate(const SampleBatch& samples, std::span<glm::vec3> radiance, Counters&) const override {
+        void evaluate(const SampleBatch& samples, const SampleOut& out, Counters&) const override {
             if (samples.v[0] > 50 && samples.u[0] < 8) throw std::runtime_error("broken");
-            std::ranges::fill(radiance, glm::vec3(1));
+            std::ranges::fill(out.radiance, glm::vec3(1));
         }
     };
     for (const scene::EstimatorKind kind : kKinds) {

@@ -52,7 +52,7 @@ check_stats() {
     expect_match 'a picture tells its other channels' "$status: $output" '0: *other channels *steps.Y*'
     refuses 'other channels of several passes are refused as by render' 2 '*--aov: allowed with one pass*' \
         explain terrain --aov steps --passes 2
-    refuses 'an unknown AOV gets the known ones' 2 '*--aov depth: allowed: steps, evals*' explain terrain --aov depth
+    refuses 'an unknown AOV gets the known ones' 2 '*--aov step: allowed: all, or some of *steps,evals*' explain terrain --aov step
     refuses 'counts of another scene are refused' 2 '*terrain.json: of a render of another scene*' \
         explain isosurface "${tiny[@]}" --stats terrain.json
     refuses 'counts with another N are refused' 2 '*another setting*' explain terrain --size 32x18 -N 3 --stats terrain.json

@@ -136,7 +136,7 @@ $(head -c 6 tiled.exr | tail -c 1 | od -An -tu1 | tr -d ' ')" '0 2'
 }
 
 check_aovs() {
-    refuses 'an unknown AOV gets the known ones' 2 '*--aov depth: allowed: steps, evals*' render --aov depth
+    refuses 'an unknown AOV gets the known ones' 2 '*--aov step: allowed: all, or some of *steps,evals*' render --aov step
     refuses 'AOVs of several passes are refused' 2 '*--aov: allowed with one pass*' render --aov steps --passes 2
     refuses 'a picture does not take the place of an AOV' 2 '*-o a.steps.png: allowed: another name*' \
         render --aov steps -o a.exr -o a.steps.png

@@ -81,14 +81,14 @@ scene::Scene plain(const char* name) {
     return scene;
 }
 
-// Only the stages that a picture without shadows, haze and costs needs.
+// Only the stages that a picture without shadows, haze and channels needs.
 class BareImage final : public integrate::ImageFunction {
   public:
     explicit BareImage(const scene::Scene& scene) : setup_(scene, integrate::Tracer::fast, trace::kStepLimit) {}
 
     std::size_t batch_samples() const override { return 65536; }
 
-    void evaluate(const integrate::SampleBatch& samples, std::span<glm::vec3> radiance,
+    void evaluate(const integrate::SampleBatch& samples, const integrate::SampleOut& out,
                   integrate::Counters& counters) const override {
         thread_local integrate::SurfaceWork work;
         integrate::SurfaceChunk& chunk = work.chunk;
@@ -101,7 +101,7 @@ class BareImage final : public integrate::ImageFunction {
             clear_shadows(chunk);
             illuminate(setup_, chunk, counters);
             shade(setup_, chunk, counters);
-            put_back(chunk, radiance, {}, counters);
+            put_back(chunk, out.radiance, counters);
         }
     }
 

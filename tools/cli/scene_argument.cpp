@@ -89,6 +89,8 @@ LoadedScene from_picture(const std::filesystem::path& path, const std::string& s
     loaded.tracer = image::read_metadata(path, "strata:tracer");
     loaded.exr_format = image::read_metadata(path, "strata:format");
     loaded.aovs = image::read_metadata(path, "strata:aov");
+    loaded.layers = image::read_metadata(path, "strata:layers");
+    loaded.layer_prefix = image::read_metadata(path, "strata:layer_prefix");
     loaded.is_tiled = image::read_metadata(path, "strata:tiled").has_value();
     loaded.simd_target = image::read_metadata(path, "strata:simd_target");
     loaded.passes = image::read_metadata(path, "strata:passes");

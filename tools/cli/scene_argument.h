@@ -21,7 +21,8 @@ struct LoadedScene {
     scene::Scene scene;
     std::string name;    // of output files: the file's or built-in scene's, without folder and extension
     std::string source;  // for messages
-    std::optional<std::string> crop, tracer, exr_format, simd_target, passes, aovs;  // as recorded in a picture
+    std::optional<std::string> crop, tracer, exr_format, simd_target, passes, aovs, layers,
+        layer_prefix;  // as recorded in a picture
     bool is_tiled = false;
     scene::Film recorded_film;  // of the scene before --set and --size: what `crop` refers to
 };

@@ -61,7 +61,7 @@ int explain_command(const ExplainRequest& request) {
         explanation.recorded = read_recorded(request.statistics, mark, count_rays(loaded.scene, explanation.window));
         if (!request.passes) passes = static_cast<int>(explanation.recorded->passes);
     }
-    const std::vector<job::Aov> aovs = job::aovs_of(request.aov, loaded, passes);
+    const integrate::ChannelSet aovs = job::aovs_of(request.aov, loaded, passes);
     explanation.plan = make_plan(loaded.scene, tracer, passes, aovs);
     explanation.prediction = predict(loaded.scene, explanation.window,
                                      {.tracer = tracer,
@@ -87,7 +87,7 @@ void add_command(cli::Command& program) {
     cli::add_simd(*command, &request->is_simd_pinned);
     command->add_option("--passes", request->passes, 1, render::kMostPasses, "K",
                         "As for render: average so many passes; default 1");
-    command->add_option("--aov", request->aov, "steps,evals", "As for render: also keep what pixels cost");
+    command->add_option("--aov", request->aov, "all|NAME,...", "As for render: also keep other channels");
     command->add_flag("--no-pilot", request->no_pilot, "Cast no rays: tell only what is known without");
     command->add_option(
         "--stats", request->statistics, "FILE.json",

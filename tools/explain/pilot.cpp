@@ -21,9 +21,9 @@ double cpu_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 class Constant final : public integrate::ImageFunction {
   public:
-    void evaluate(const integrate::SampleBatch& /*samples*/, std::span<glm::vec3> radiance,
+    void evaluate(const integrate::SampleBatch& /*samples*/, const integrate::SampleOut& out,
                   integrate::Counters& /*counters*/) const override {
-        std::ranges::fill(radiance, glm::vec3(0.5f));
+        std::ranges::fill(out.radiance, glm::vec3(0.5f));
     }
 };
 

@@ -157,7 +157,7 @@ void add_estimator(FeatureList& list, const scene::Scene& scene) {
 
 }  // namespace
 
-Plan make_plan(const scene::Scene& scene, integrate::Tracer tracer, int passes, const std::vector<job::Aov>& aovs) {
+Plan make_plan(const scene::Scene& scene, integrate::Tracer tracer, int passes, const integrate::ChannelSet& aovs) {
     FeatureList list;
     Plan plan;
     add_motion(list, scene);
@@ -176,8 +176,7 @@ Plan make_plan(const scene::Scene& scene, integrate::Tracer tracer, int passes, 
                         : "one pass: nothing is summed up between passes");
     list.add("other channels", !aovs.empty(),
              aovs.empty() ? "pictures hold colour alone: no depth, normals or other AOVs"
-                          : fmt::format("--aov: means over each pixel's samples in {}",
-                                        fmt::join(job::aov_channels(aovs), ", ")));
+                          : fmt::format("--aov: {}", fmt::join(job::aov_channels(aovs), ", ")));
     plan.features = list.take();
     return plan;
 }

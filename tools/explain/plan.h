@@ -52,6 +52,6 @@ struct Plan {
 
 // Of a valid scene. passes: of N*N samples each, to be averaged.
 Plan make_plan(const scene::Scene& scene, integrate::Tracer tracer, int passes = 1,
-               const std::vector<job::Aov>& aovs = {});
+               const integrate::ChannelSet& aovs = {});
 
 }  // namespace strata::tools::explain

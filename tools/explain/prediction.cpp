@@ -43,16 +43,19 @@ double strip_memory(const film::Rect& window) {
     return (kStripsInWork * kFilmBytes + kEncoderBytes) * strip_pixels;
 }
 
-// What pixels cost: in the strips and the encoder, the small pictures' sums, and drawing them, one after the other.
-double aov_memory(const film::Rect& window, const std::vector<job::Aov>& aovs) {
+// In the strips and the encoder; of what is drawn, the small pictures' sums, and drawing them, one after the other.
+double aov_memory(const film::Rect& window, const integrate::ChannelSet& aovs) {
     if (aovs.empty()) return 0;
-    constexpr double kCostBytes = 8, kChannelBytes = 8, kSumBytes = 17, kDrawnBytes = 42;
+    constexpr double kFilmValueBytes = 4, kEncoderValueBytes = 8, kSumBytes = 17, kDrawnBytes = 42;
     const double strip_pixels = 1.0 * window.width() * std::min(image::kStripRows, window.height());
     const double longest = std::max(window.width(), window.height());
     const double block = std::ceil(longest / job::kLongestCostSide);
     const double small_pixels = 1.0 * window.width() * window.height() / (block * block);
-    const auto count = static_cast<double>(aovs.size());
-    return strip_pixels * (3 * kCostBytes + count * kChannelBytes) + small_pixels * (count * kSumBytes + kDrawnBytes);
+    const auto values = static_cast<double>(aovs.values());
+    const auto is_drawn_entry = [](const integrate::ChannelSet::Entry& aov) { return job::is_drawn(*aov.channel); };
+    const auto drawn = static_cast<double>(std::ranges::count_if(aovs.entries(), is_drawn_entry));
+    const double of_strips = strip_pixels * values * (3 * kFilmValueBytes + kEncoderValueBytes);
+    return of_strips + (drawn > 0 ? small_pixels * (drawn * kSumBytes + kDrawnBytes) : 0.0);
 }
 
 // Samples, rays and beams on their way in a thread. A tile may be less than a batch.

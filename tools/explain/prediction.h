@@ -56,7 +56,7 @@ struct PredictionSettings {
     integrate::Tracer tracer = integrate::Tracer::fast;
     int threads = 0;  // 0: as many as the machine has
     int passes = 1;   // costs are those of one, but memory
-    std::vector<job::Aov> aovs{};
+    integrate::ChannelSet aovs{};
     bool with_pilot = true;
 };
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "src/estimate/pixel_channels.h"
 #include "src/image/difference.h"
 #include "src/image/sheet.h"
 #include "src/scene/key_text.h"
@@ -14,12 +16,8 @@ namespace strata::tools::job {
 
 namespace {
 
-float value_of(Aov aov, const glm::vec2& cost) { return aov == Aov::steps ? cost.x : cost.y; }
-
-const char* meaning(Aov aov) {
-    return aov == Aov::steps ? "tracer steps a sample, shadow rays' included"
-                             : "noise evaluations a sample (octaves at points), shadow rays' and normals' included";
-}
+using integrate::Channel;
+using integrate::ChannelSet;
 
 image::Picture grey(int width, int height, float value) {
     image::Picture picture = image::make_picture(width, height);
@@ -27,53 +25,89 @@ image::Picture grey(int width, int height, float value) {
     return picture;
 }
 
-}  // namespace
-
-std::string name_of(Aov aov) { return aov == Aov::steps ? "steps" : "evals"; }
-
-std::vector<Aov> parse_aovs(const std::string& text) {
-    std::vector<Aov> aovs;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::string word = text.substr(begin, end - begin);
-        begin = end + 1;
-        if (word != "steps" && word != "evals") {
-            throw cli::UsageError(
-                fmt::format("--aov {}: allowed: steps, evals, or both with a comma", scene::excerpt(text)));
-        }
-        const Aov aov = word == "steps" ? Aov::steps : Aov::evals;
-        if (std::ranges::find(aovs, aov) == aovs.end()) aovs.push_back(aov);
-    }
-    std::ranges::sort(aovs);
-    return aovs;
+template <class Channels>
+std::string join_names(const Channels& channels) {
+    std::string names;
+    for (const Channel* channel : channels) names += (names.empty() ? "" : ",") + std::string(channel->name);
+    return names;
 }
 
-std::vector<Aov> aovs_of(const std::string& typed, const cli::LoadedScene& loaded, int passes) {
+std::vector<const Channel*> channels_of(const ChannelSet& aovs) {
+    std::vector<const Channel*> channels;
+    for (const ChannelSet::Entry& entry : aovs.entries()) channels.push_back(entry.channel);
+    return channels;
+}
+
+std::vector<const Channel*> every_channel() {
+    std::vector<const Channel*> channels;
+    for (const Channel& channel : integrate::all_channels()) channels.push_back(&channel);
+    return channels;
+}
+
+}  // namespace
+
+ChannelSet parse_aovs(const std::string& text, const estimate::EstimatorSettings& estimator) {
+    const auto has = [&](const Channel* channel) { return estimate::has_filter(estimator, channel->filter); };
+    std::vector<const Channel*> channels;
+    if (text == "all") {
+        std::ranges::copy_if(every_channel(), std::back_inserter(channels), has);
+        return ChannelSet(channels);
+    }
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const Channel* channel = integrate::find_channel(std::string_view(text).substr(begin, end - begin));
+        begin = end + 1;
+        if (channel == nullptr) {
+            throw cli::UsageError(
+                fmt::format("--aov {}: allowed: all, or some of {}", scene::excerpt(text), all_aov_names()));
+        }
+        if (!has(channel)) {
+            throw cli::UsageError(fmt::format(
+                "--aov {}: allowed with --estimator random or stratified and -N of 2 or more", channel->name));
+        }
+        channels.push_back(channel);
+    }
+    return ChannelSet(channels);
+}
+
+ChannelSet aovs_of(const std::string& typed, const cli::LoadedScene& loaded, int passes) {
     if (typed.empty() && !loaded.aovs) return {};
-    std::vector<Aov> aovs = parse_aovs(!typed.empty() ? typed : *loaded.aovs);
+    ChannelSet aovs = parse_aovs(!typed.empty() ? typed : *loaded.aovs, estimate::estimator_settings(loaded.scene));
     if (passes > 1) {
         throw cli::UsageError("--aov: allowed with one pass; not with --passes, --target-rmse or --time-limit");
     }
     return aovs;
 }
 
-std::vector<std::string> aov_channels(const std::vector<Aov>& aovs) {
-    std::vector<std::string> channels;
-    channels.reserve(aovs.size());
-    for (const Aov aov : aovs) channels.push_back(name_of(aov) + ".Y");
-    return channels;
-}
+std::string names_of(const ChannelSet& aovs) { return join_names(channels_of(aovs)); }
 
-std::vector<float> aov_values(const std::vector<Aov>& aovs, const film::Film& strip) {
-    std::vector<float> values;
-    values.reserve(aovs.size() * strip.costs().size());
-    for (const glm::vec2& cost : strip.costs()) {
-        for (const Aov aov : aovs) values.push_back(value_of(aov, cost));
+std::string all_aov_names() { return join_names(every_channel()); }
+
+std::string aov_table() {
+    std::string table;
+    for (const Channel& channel : integrate::all_channels()) {
+        table += fmt::format("  {:<10} {:<8} {}, in {}\n", channel.name, integrate::name_of(channel.filter),
+                             channel.meaning, channel.unit);
     }
-    return values;
+    return table;
 }
 
-CostPicture::CostPicture(Aov aov, const film::Rect& window) : aov_(aov), window_(window) {
+std::vector<std::string> aov_channels(const ChannelSet& aovs, const std::string& prefix) {
+    std::vector<std::string> names;
+    for (const Channel* channel : channels_of(aovs)) {
+        const std::vector<std::string> of_channel = integrate::file_channels(*channel, prefix);
+        names.insert(names.end(), of_channel.begin(), of_channel.end());
+    }
+    return names;
+}
+
+std::string description_of(const Channel& channel) {
+    return fmt::format("{}; {}; {}", integrate::name_of(channel.filter), channel.unit, channel.meaning);
+}
+
+bool is_drawn(const Channel& channel) { return channel.type == integrate::ChannelType::work; }
+
+CostPicture::CostPicture(const ChannelSet::Entry& aov, const film::Rect& window) : aov_(aov), window_(window) {
     const auto divide_up = [](int a, int b) { return (a + b - 1) / b; };
     block_ = divide_up(std::max(window.width(), window.height()), kLongestCostSide);
     width_ = divide_up(window.width(), block_);
@@ -83,11 +117,10 @@ CostPicture::CostPicture(Aov aov, const film::Rect& window) : aov_(aov), window_
 
 void CostPicture::add(const film::Film& strip) {
     const film::Rect& w = strip.window();
-    auto cost = strip.costs().begin();
     for (int y = w.y0 - window_.y0; y < w.y1 - window_.y0; ++y) {
         double* row = &sum_[static_cast<std::size_t>(y / block_) * static_cast<std::size_t>(width_)];
         for (int x = 0; x < w.width(); ++x) {
-            const double value = static_cast<double>(value_of(aov_, *cost++));
+            const double value = static_cast<double>(strip.channels_at(w.x0 + x, window_.y0 + y)[aov_.first]);
             row[x / block_] += value;
             whole_sum_ += value;
         }
@@ -112,7 +145,7 @@ image::Canvas CostPicture::draw(const std::string& title) const {
     sheet.title = title;
     const image::Canvas canvas = image::difference(picture, grey(width_, height_, 0.0f), top);
     sheet.rows = {{{canvas, "", false}}};
-    sheet.scale = image::difference_scale(std::clamp(width_, 320, 640), top, meaning(aov_));
+    sheet.scale = image::difference_scale(std::clamp(width_, 320, 640), top, std::string(aov_.channel->meaning));
     const double pixels = 1.0 * window_.width() * window_.height();
     sheet.caption = fmt::format("{}x{} pixels, mean {:.4g}, largest {:.4g}{}", window_.width(), window_.height(),
                                 whole_sum_ / pixels, largest,

@@ -1,33 +1,41 @@
-// What pixels cost, beside the picture: channels of its EXR, and pictures to look at.
+// Channels beside a picture's colour, as the command line asks for them; and pictures of what pixels cost, to look at.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "src/estimate/estimator.h"
 #include "src/film/film.h"
 #include "src/image/canvas.h"
 #include "src/image/metadata.h"
+#include "src/integrate/channels.h"
 #include "tools/cli/scene_argument.h"
 
 namespace strata::tools::job {
 
-// In the order of their channels.
-enum class Aov { evals, steps };
-
-std::string name_of(Aov aov);
-
-// "steps,evals" and the like, in the order of their channels, each once. Throws UsageError for another word.
-std::vector<Aov> parse_aovs(const std::string& text);
+// "steps,evals" and the like; "all" those that such an estimator has. Throws UsageError for another word and for what
+// the estimator does not have.
+integrate::ChannelSet parse_aovs(const std::string& text, const estimate::EstimatorSettings& estimator);
 
 // Those of --aov, empty if not given, else those that the picture recorded. Throws UsageError, for several passes too.
-std::vector<Aov> aovs_of(const std::string& typed, const cli::LoadedScene& loaded, int passes);
+integrate::ChannelSet aovs_of(const std::string& typed, const cli::LoadedScene& loaded, int passes);
 
-// Channels of an EXR: "evals.Y", "steps.Y".
-std::vector<std::string> aov_channels(const std::vector<Aov>& aovs);
+// "evals,steps".
+std::string names_of(const integrate::ChannelSet& aovs);
 
-// The values of the strip's pixels, one after the other as many as there are `aovs`.
-std::vector<float> aov_values(const std::vector<Aov>& aovs, const film::Film& strip);
+// All there are, for a help text: their names alone, and a line each with what it is.
+std::string all_aov_names();
+std::string aov_table();
+
+// Channels of an EXR, in the order of a pixel's values.
+std::vector<std::string> aov_channels(const integrate::ChannelSet& aovs, const std::string& prefix = "");
+
+// What an EXR says of a channel: "nearest: ...".
+std::string description_of(const integrate::Channel& channel);
+
+// Whether a picture in false colour is drawn of it as well.
+bool is_drawn(const integrate::Channel& channel);
 
 // A small picture of a large one's costs, gathered strip by strip: blocks of k x k pixels are averaged, with the least
 // k that leaves no side longer than kLongestCostSide.
@@ -35,16 +43,16 @@ inline constexpr int kLongestCostSide = 1920;
 
 class CostPicture {
   public:
-    CostPicture(Aov aov, const film::Rect& window);
+    // The first component of an AOV; strips hold the values that it is one of.
+    CostPicture(const integrate::ChannelSet::Entry& aov, const film::Rect& window);
 
-    Aov aov() const { return aov_; }
     void add(const film::Film& strip);
 
     // In false colour, with a scale that begins at 0.
     image::Canvas draw(const std::string& title) const;
 
   private:
-    Aov aov_;
+    integrate::ChannelSet::Entry aov_;
     film::Rect window_;
     int block_;
     int width_, height_;  // of the small picture

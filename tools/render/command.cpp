@@ -100,7 +100,7 @@ int render_command(const RenderRequest& request) {
                                                 .tile = job.tile,
                                                 .on_progress = progress.callback(),
                                                 .cancel = &cancel,
-                                                .with_costs = !job.aovs.empty(),
+                                                .channels = job.aovs,
                                                 .keeper = journal.still(),
                                                 .shard = job.shard ? &*job.shard : nullptr};
     const auto tell_end = [&](const strata::render::ProgressiveResult& result) {
@@ -171,10 +171,15 @@ void add_command(cli::Command& program) {
                         "pipe: exr (the default), png, tif or jpg");
     command->add_flag("--tiled", request->tiled,
                       "EXR in tiles of 64x64, as from 4096 pixels on either side without being asked");
-    command->add_option("--aov", request->aov, "steps,evals",
-                        "Also keep what pixels cost, as means over their own samples: tracer steps, noise evaluations; "
-                        "in EXR as 32-bit channels steps.Y and evals.Y, and as false-colour pictures NAME.steps.png "
-                        "and NAME.evals.png beside the first output");
+    command->add_option("--aov", request->aov, "all|NAME,...",
+                        "Also keep other channels than colour, each with a filter of its own: those named at the end, "
+                        "or all that the estimator has; in EXRs, as 32-bit channels. Of steps and evals false-colour "
+                        "pictures NAME.steps.png and NAME.evals.png are drawn as well");
+    command->add_option("--layers", request->layers, "one|separate",
+                        "Where other channels go: one EXR with the colour, or separate EXRs NAME.LAYER.exr; default "
+                        "one");
+    command->add_option("--layer-prefix", request->layer_prefix, "PREFIX",
+                        "In front of their names, as Blender has the view layer's: PREFIX.N.X; default none");
     command->add_option("--stats", request->statistics, "FILE.json", "Write counts and times as JSON");
     add_pass_options(*command, *request);
     command->add_option("--shard", request->shard, "i/n",
@@ -190,7 +195,8 @@ void add_command(cli::Command& program) {
         "Into standard output (-) and named pipes a picture goes when it is whole, and nothing of one that was "
         "interrupted;\nmessages go to standard error then. `-o png:-` is `-o - --format png`. SCENE - is read from "
         "standard input.\n"
-        "A picture given as SCENE is rendered again as its metadata say, --crop, --aov, --format, --tiled, --tracer, "
+        "A picture given as SCENE is rendered again as its metadata say, --crop, --aov, --layers, --format, --tiled, "
+        "--tracer, "
         "--simd and --passes included; at another --size a crop shows the same part of the frame.\n"
         "The picture of K passes is the same whatever stopped it at K: its metadata hold K, and --passes K makes it "
         "again.\nThe sampling error that is told is that of this picture, before it is rounded for a file, against "
@@ -203,7 +209,11 @@ void add_command(cli::Command& program) {
         "the whole ones; an earlier NAME.EXT stays.\n"
         "A file that cannot be put in place is kept whole as NAME.kept.EXT, beside it or in TMPDIR, and told; the "
         "others are written.\n"
-        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 129, 130 or 143 interrupted.");
+        "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 129, 130 or 143 interrupted.\n"
+        "Channels of --aov, with their filters. picture: weighted as colour is; the others are of the samples that are "
+        "placed for a pixel, of shared ones those in its square: mean: each counts alike; nearest: that nearest to the "
+        "pixel's centre; min: the least; sum; variance: that of their mean.\n" +
+        job::aov_table());
     command->action([request] { return render_command(*request); });
 }
 

@@ -21,6 +21,7 @@
 #include "tools/cli/standard_output.h"
 #include "tools/job/exr_format.h"
 #include "tools/job/shard_text.h"
+#include "tools/render/layers.h"
 
 namespace strata::tools::render {
 
@@ -165,21 +166,14 @@ void check_shard_outputs(const Job& job) {
     }
 }
 
-void choose_aovs(const RenderRequest& request, Job& job) {
-    job.aovs = job::aovs_of(request.aov, job.loaded, job.goal.passes);
-    if (job.aovs.empty()) return;
-    image::check_fonts();
-    job.write.exr_extra = job::aov_channels(job.aovs);
-}
-
 void check_aov_paths(const Job& job) {
-    for (const job::Aov aov : job.aovs) {
-        const fs::path path = aov_path(job, aov);
+    for (const integrate::Channel* aov : drawn_aovs(job)) {
+        const fs::path path = aov_path(job, *aov);
         image::check_writable(path);
         if (std::ranges::any_of(job.outputs,
                                 [&](const fs::path& output) { return image::is_one_file(path, output); })) {
             throw cli::UsageError(
-                fmt::format("-o {}: allowed: another name, this is where --aov {} goes", path.string(), name_of(aov)));
+                fmt::format("-o {}: allowed: another name, this is where --aov {} goes", path.string(), aov->name));
         }
     }
 }
@@ -200,8 +194,11 @@ void check_statistics(const Job& job) {
 std::vector<cli::NamedOutput> named_outputs(const Job& job) {
     std::vector<cli::NamedOutput> outputs;
     for (const fs::path& path : job.outputs) outputs.push_back({fmt::format("-o {}", path.string()), path});
-    for (const job::Aov aov : job.aovs) {
-        outputs.push_back({fmt::format("--aov {}", name_of(aov)), aov_path(job, aov)});
+    for (const integrate::Channel* aov : drawn_aovs(job)) {
+        outputs.push_back({fmt::format("--aov {}", aov->name), aov_path(job, *aov)});
+    }
+    for (const LayerFile& file : job.layer_files) {
+        outputs.push_back({fmt::format("--aov {}", file.layer.channel->name), file.path});
     }
     if (!job.statistics.empty())
         outputs.push_back({fmt::format("--stats {}", job.statistics.string()), job.statistics});
@@ -229,10 +226,10 @@ void check_limits(const Job& job) {
 
 }  // namespace
 
-fs::path aov_path(const Job& job, job::Aov aov) {
+fs::path aov_path(const Job& job, const integrate::Channel& aov) {
     const bool is_stream = image::stream_target(job.outputs.front()).has_value();
     const fs::path path = is_stream ? fs::path(job.loaded.name + ".png") : job.outputs.front();
-    return image::derived_path(path, fmt::format(".{}.png", name_of(aov)));
+    return image::derived_path(path, fmt::format(".{}.png", aov.name));
 }
 
 fs::path partial_path(const Job& job, const fs::path& path) {
@@ -282,6 +279,7 @@ Job prepare(const RenderRequest& request) {
     check_memory(job.rendered_window(), job.goal, job.loaded.scene);
     job.outputs = output_paths(request, job);
     check_shard_outputs(job);
+    choose_layer_files(job);
     check_aov_paths(job);
     job.statistics = request.statistics;
     check_statistics(job);
@@ -291,9 +289,7 @@ Job prepare(const RenderRequest& request) {
     cli::keep_output_for(job.statistics);
     job.metadata = job.picture.metadata(format);
     if (is_tiled) job.metadata.set("strata:tiled", "asked for");
-    std::string aovs;
-    for (const job::Aov aov : job.aovs) aovs += fmt::format("{}{}", aovs.empty() ? "" : ",", name_of(aov));
-    if (!aovs.empty()) job.metadata.set("strata:aov", aovs);
+    if (!job.aovs.empty()) set_aovs(job, job.metadata);
     if (job.shard) job.metadata.set(job::kShardKey, job::shard_text(job.shard->shard()));
     check_limits(job);
     job.journal = request.journal;

@@ -14,6 +14,7 @@
 #include "tools/job/aov.h"
 #include "tools/job/picture_job.h"
 #include "tools/job/work_journal.h"
+#include "tools/render/layer_files.h"
 
 namespace strata::tools::render {
 
@@ -21,7 +22,7 @@ namespace strata::tools::render {
 struct RenderRequest {
     cli::SceneArgument scene;
     std::vector<std::string> outputs;
-    std::string crop, format, statistics, aov, shard;
+    std::string crop, format, statistics, aov, layers, layer_prefix, shard;
     std::optional<integrate::Tracer> tracer;
     std::optional<int> passes;
     double target_rmse = 0, time_limit_s = 0;
@@ -36,8 +37,10 @@ struct Job {
     job::PictureJob picture;
     std::optional<film::ShardPicture> shard;  // of its window, which alone is rendered; empty: all of it
     std::vector<std::filesystem::path> outputs;
-    std::vector<job::Aov> aovs;
-    std::filesystem::path statistics;  // empty: none
+    integrate::ChannelSet aovs;
+    std::string layers, layer_prefix;
+    std::vector<LayerFile> layer_files;  // of AOVs that are asked for in files of their own
+    std::filesystem::path statistics;    // empty: none
     image::WriteOptions write;
     image::Metadata metadata;
     strata::render::PassGoal goal;
@@ -54,7 +57,7 @@ struct Job {
 Job prepare(const RenderRequest& request);
 
 // NAME.steps.png, named like the first output: the picture of an AOV to look at.
-std::filesystem::path aov_path(const Job& job, job::Aov aov);
+std::filesystem::path aov_path(const Job& job, const integrate::Channel& aov);
 
 // Where what is finished of an output goes when the render is stopped: NAME.partial.EXT beside NAME.EXT, or
 // NAME.partial-2.EXT where that is an output itself.

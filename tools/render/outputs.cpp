@@ -17,11 +17,17 @@ namespace fs = std::filesystem;
 
 PictureOutputs::PictureOutputs(const Job& job) : job_(job) {
     for (const fs::path& path : job.outputs) {
-        outputs_.push_back({path, std::make_unique<image::OutputFile>(path), std::nullopt});
+        outputs_.push_back({path, std::nullopt, std::make_unique<image::OutputFile>(path), std::nullopt});
+        note_hidden(*outputs_.back().file);
+    }
+    for (const LayerFile& file : job.layer_files) {
+        outputs_.push_back({file.path, file.layer, std::make_unique<image::OutputFile>(file.path), std::nullopt});
         note_hidden(*outputs_.back().file);
     }
     if (job.shard) return;  // pictures of AOVs are of the whole
-    for (const job::Aov aov : job.aovs) note_hidden(costs_.emplace_back(job, aov).file);
+    for (const integrate::ChannelSet::Entry& aov : job.aovs.entries()) {
+        if (job::is_drawn(*aov.channel)) note_hidden(costs_.emplace_back(job, aov).file);
+    }
 }
 
 void PictureOutputs::note_hidden(const image::OutputFile& file) {
@@ -29,7 +35,15 @@ void PictureOutputs::note_hidden(const image::OutputFile& file) {
 }
 
 void PictureOutputs::begin(Output& output, const image::Metadata& metadata) {
-    output.stream.emplace(std::move(output.file), job_.shape(), metadata, job_.write);
+    if (!output.layer) {
+        output.stream.emplace(std::move(output.file), job_.shape(), metadata, job_.write);
+        return;
+    }
+    image::Metadata of_layer = metadata;
+    of_layer.set("strata:layer", output.layer->channel->name);
+    image::WriteOptions options = job_.write;
+    options.exr_format = image::ExrFormat::floating;
+    output.stream.emplace(std::move(output.file), job_.shape(), of_layer, options);
 }
 
 void PictureOutputs::begin(const image::Metadata& metadata) {
@@ -52,14 +66,16 @@ void PictureOutputs::for_each(const Action& action) {
 void PictureOutputs::write_rows(std::span<const glm::vec3> pixels, std::span<const float> extra) {
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
     const std::span<const float> rgb(&pixels[0].x, 3 * pixels.size());
+    const std::span<const float> beside = job_.layer_files.empty() ? extra : std::span<const float>();
     for_each([&](Output& output) {
-        output.stream->write(rgb, extra,
+        if (output.layer) return output.stream->write(layer_pixels(*output.layer, extra, job_.aovs.values()));
+        output.stream->write(rgb, beside,
                              journal_ != nullptr ? journal_->codes_hook(image::format_of(output.path)) : nullptr);
     });
 }
 
 void PictureOutputs::write(const film::Film& strip) {
-    write_rows(strip.pixels(), job::aov_values(job_.aovs, strip));
+    write_rows(strip.pixels(), strip.channels());
     for (Costs& costs : costs_) costs.picture.add(strip);
     if (journal_ != nullptr) journal_->written(strip);
 }

@@ -53,12 +53,14 @@ class PictureOutputs {
   private:
     struct Output {
         std::filesystem::path path;
-        std::unique_ptr<image::OutputFile> file;     // until it has a head
-        std::optional<image::PictureStream> stream;  // empty after that: given up
+        std::optional<integrate::ChannelSet::Entry> layer;  // empty: the picture
+        std::unique_ptr<image::OutputFile> file;            // until it has a head
+        std::optional<image::PictureStream> stream;         // empty after that: given up
     };
 
     struct Costs {
-        Costs(const Job& job, job::Aov aov) : picture(aov, job.picture.window), file(aov_path(job, aov)) {}
+        Costs(const Job& job, const integrate::ChannelSet::Entry& aov)
+            : picture(aov, job.picture.window), file(aov_path(job, *aov.channel)) {}
 
         job::CostPicture picture;
         image::OutputFile file;

@@ -46,7 +46,7 @@ std::vector<Row> instant(const Settings& settings, Random&) {
                     const double u = x + 0.5 + s.u, v = y + 0.5 + s.v;
                     glm::vec3 radiance;
                     integrate::Counters counters;
-                    image->evaluate({{&u, 1}, {&v, 1}, {&t, 1}}, {&radiance, 1}, counters);
+                    image->evaluate({{&u, 1}, {&v, 1}, {&t, 1}}, std::span(&radiance, 1), counters);
                     sum += static_cast<double>(radiance.r);
                     spun += s.time_s != t;
                 }

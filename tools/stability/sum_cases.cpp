@@ -33,9 +33,11 @@ class Speckle final : public integrate::ImageFunction {
         return (noise::mix64(noise::mix64(bits(u)) + bits(v)) >> 32) < threshold_ ? kBright : kDim;
     }
 
-    void evaluate(const integrate::SampleBatch& samples, std::span<glm::vec3> radiance,
+    void evaluate(const integrate::SampleBatch& samples, const integrate::SampleOut& out,
                   integrate::Counters&) const override {
-        for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] = glm::vec3(at(samples.u[i], samples.v[i]));
+        for (std::size_t i = 0; i < out.radiance.size(); ++i) {
+            out.radiance[i] = glm::vec3(at(samples.u[i], samples.v[i]));
+        }
     }
 
   private:
@@ -84,8 +86,8 @@ std::vector<Row> mixed(EstimatorKind kind, const std::string& name, const Settin
 class Constant final : public integrate::ImageFunction {
   public:
     explicit Constant(float radiance) : radiance_(radiance) {}
-    void evaluate(const integrate::SampleBatch&, std::span<glm::vec3> radiance, integrate::Counters&) const override {
-        for (glm::vec3& r : radiance) r = glm::vec3(radiance_);
+    void evaluate(const integrate::SampleBatch&, const integrate::SampleOut& out, integrate::Counters&) const override {
+        for (glm::vec3& r : out.radiance) r = glm::vec3(radiance_);
     }
 
   private:
