@@ -40,6 +40,8 @@ const Keys kIsosurface =
                     "camera.far=20",           "sun.direction=[-0.5,0.8,-0.6]"};
 
 const std::vector<std::string> kCosts{"steps", "evals"};
+const std::vector<std::string> kGeometry{"Z", "depth", "P", "N", "motion", "samples"};
+const std::vector<std::string> kLight{"albedo", "sun", "sky", "air", "background", "shadow", "height", "slope"};
 const Keys kOneOctave{"surface.octaves=1"};
 const Keys kSixteenOctaves{"surface.octaves=16", "sampling.N=1"};
 const Keys kNoShadows{"sun.shadows=false"};
@@ -64,6 +66,7 @@ std::vector<GoldenScene> grounds() {
         {.name = "terrain_crop", .keys = kTerrain + kStratified, .crop = film::Rect{10, 5, 28, 17}},
         {.name = "terrain_passes", .keys = kTerrain + kStratified + Keys{"sampling.N=1"}, .passes = 4},
         {.name = "terrain_aov", .keys = kTerrain, .channels = kCosts},
+        {.name = "terrain_layers", .keys = kTerrain + kStratified, .channels = kLight},
         {.name = "terrain_many_rays",
          .keys = kTerrain + Keys{"sampling.N=8", "surface.octaves=5", "sampling.tolerance=1"},
          .crop = film::Rect{8, 9, 24, 17}},
@@ -100,6 +103,13 @@ std::vector<GoldenScene> bodies() {
         {.name = "isosurface_box_aov",
          .keys = kIsosurface + Keys{"surface.bound=box", "surface.bound_size=[1.5,1,1.2]"},
          .channels = kCosts},
+        {.name = "planet_geometry",
+         .keys = kPlanet + kShutter + spin + camera_keys("[0.5,1,-6]", "[1,1.2,-5.5]"),
+         .channels = kGeometry},
+        {.name = "planet_variance_crop",
+         .keys = kPlanet + Keys{"sampling.estimator=random"},
+         .crop = film::Rect{8, 4, 25, 16},
+         .channels = {"variance", "samples", "N"}},
         {.name = "isosurface_all_motion",
          .keys = kIsosurface + kShutter + spin + camera_keys("[0,2,-5]", "[1,2.2,-4.5]") +
                  Keys{"surface.drift=[0.5,1,0]", "sampling.estimator=sobol"}},
@@ -171,6 +181,7 @@ std::vector<GoldenScene> daylights() {
                  Keys{"sun.direction=[-0.8,0.05,0.35]", "sun.shadow_height=0.2", "sun.shadow_relief=0.6",
                       "sky.gain=1.5", "surface.drift=[3,0,2]"} +
                  kShutter},
+        {.name = "daylight_layers", .keys = daylight + Keys{"sampling.m=3"}, .channels = kLight},
         {.name = "daylight_no_shadows",
          .keys = daylight + kNoShadows + Keys{"surface.kind=hyperterrain", "surface.rotation_deg=[10,40,-15]"}},
     };
@@ -191,6 +202,10 @@ std::vector<GoldenScene> soft_lights() {
         {.name = "sky_rays_spin_bounces",
          .keys = kPlanet + soft + rays + kShutter +
                  Keys{"sky.bounces=3", "surface.spin_deg_per_s=72", "surface.octaves=5"}},
+        {.name = "sky_rays_layers",
+         .keys = kTerrain + soft + rays + kStratified,
+         .crop = film::Rect{8, 9, 24, 17},
+         .channels = {"sun", "sky", "bounce", "air", "background"}},
         {.name = "sky_rays_isosurface", .keys = kIsosurface + rays + low},
         {.name = "sky_rays_reference", .keys = kTerrain + soft + rays + low, .tracer = integrate::Tracer::reference},
     };
