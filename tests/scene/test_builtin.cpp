@@ -13,6 +13,7 @@
 #include "src/scene/toml_reader.h"
 #include "src/scene/validate.h"
 
+using namespace strata;
 using namespace strata::scene;
 
 namespace {

@@ -11,6 +11,7 @@
 #include "src/scene/toml_reader.h"
 #include "tests/scene/random_scene.h"
 
+using namespace strata;
 using namespace strata::scene;
 
 namespace {

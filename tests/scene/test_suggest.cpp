@@ -8,6 +8,7 @@
 #include "src/scene/enum_names.h"
 #include "src/scene/suggest.h"
 
+using namespace strata;
 using namespace strata::scene;
 
 namespace {

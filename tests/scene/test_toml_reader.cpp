@@ -12,6 +12,7 @@
 #include "src/scene/scene_text.h"
 #include "src/scene/toml_reader.h"
 
+using namespace strata;
 using namespace strata::scene;
 using namespace std::string_literals;
 

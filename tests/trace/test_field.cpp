@@ -209,7 +209,9 @@ trace::Ray clip_ray(Random& random, const trace::Field& field) {
             ray.origin = anywhere(random, 0.5);
             break;
         case 1:  // grazing the ball, the shell or a face
-            ray.origin = (std::isfinite(field.extent().ball) ? field.extent().ball : 1.0) *
+            ray.origin = (solid::row_of(surface.kind).has_bound ? surface.shape<solid::LevelSet>().bound_size.x
+                          : std::isfinite(field.extent().ball)  ? field.extent().ball
+                                                                : 1.0) *
                          glm::normalize(glm::cross(ray.direction, unit_vector(random)));
             ray.origin -= uniform(random, 0.0, 20.0) * ray.direction;
             break;
