@@ -85,7 +85,8 @@ class BeamFamilies {
 
   private:
     glm::dvec3 near_point(Random& random) const {
-        const double height = uniform(random, -0.3, 1.0) * field_.amplitude();
+        // Over a smooth base not exactly on it, where double cannot tell the sign of f.
+        const double height = uniform(random, -0.3, 1.0) * std::max(field_.amplitude(), 1e-6);
         if (solid::row_of(field_.surface().kind).has_bound) return uniform(random, 0.0, 3.0) * unit_vector(random);
         return solid::over(field_.solid(), 60.0 * unit_vector(random), height);
     }
