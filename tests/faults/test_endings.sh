@@ -47,7 +47,7 @@ start() { # words, with those of env first
 }
 
 # A minute's work.
-long=("$strata" render hyperterrain --size 320x180 -N 64 --quiet -o a.exr)
+long=("$strata" render hyperterrain --size 320x180 -N 64 --quiet --no-journal -o a.exr)
 
 check_hangup() {
     start "${long[@]}"
@@ -78,7 +78,7 @@ check_timeout() {
 check_second_signal() {
     local signal
     for signal in INT TERM HUP; do
-        start "$strata" render hyperterrain --size 4096x4096 -N 1 --threads 1 --quiet -o a.exr -o a.png
+        start "$strata" render hyperterrain --size 4096x4096 -N 1 --threads 1 --quiet --no-journal -o a.exr -o a.png
         kill "-$signal" "$pid"
         sleep 0.3
         kill "-$signal" "$pid"
@@ -86,7 +86,7 @@ check_second_signal() {
         expect "a second SIG$signal ends with its code" "$code" $((128 + $(kill -l "$signal")))
         expect "a second SIG$signal leaves nothing hidden" "$(ls -A)" ''
     done
-    start "$strata" render hyperterrain --size 4096x4096 -N 1 --threads 1 --quiet -o a.exr
+    start "$strata" render hyperterrain --size 4096x4096 -N 1 --threads 1 --quiet --no-journal -o a.exr
     kill -QUIT "$pid"
     await_end 'SIGQUIT ends it' "$pid"
     expect 'SIGQUIT ends at once, with nothing hidden left' "$code $(ls -A)" '131 '

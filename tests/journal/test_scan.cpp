@@ -77,7 +77,9 @@ TEST_CASE("parts that never reached the disk and are zeros, or hold another jour
     std::mt19937_64 random(3);
     std::vector<Block> payloads;
     for (int i = 0; i < 12; ++i) payloads.push_back(random_block(random, random() % 400));
-    const Block whole = journal_of(payloads), other = journal_of(payloads, kTestId + 1);
+    std::vector<Block> others;
+    for (const Block& payload : payloads) others.push_back(random_block(random, payload.size()));
+    const Block whole = journal_of(payloads), other = journal_of(others, kTestId + 1);
     std::size_t whole_records = 0;
     for (int i = 0; i < 2000; ++i) {
         const std::size_t first = kFileHeadBytes + random() % (whole.size() - kFileHeadBytes);

@@ -50,7 +50,7 @@ check_same_bits() {
 
 check_interruption() {
     echo earlier >a.exr
-    "${interruptible[@]}" "$strata" render edge --size 64x36 -N 8 --passes 1000000 --quiet -o a.exr --stats a.json &
+    "${interruptible[@]}" "$strata" render edge --size 64x36 -N 8 --passes 1000000 --quiet --no-journal -o a.exr --stats a.json &
     local pid=$!
     await_handler "$pid"
     sleep 1.5

@@ -217,7 +217,7 @@ check_samples() {
 start_render() { # output arguments...: sets pid once the program listens to signals
     local name=$1
     shift
-    "${interruptible[@]}" "$strata" render hyperterrain --size 320x180 -N 64 --quiet -o "$name" "$@" &
+    "${interruptible[@]}" "$strata" render hyperterrain --size 320x180 -N 64 --quiet --no-journal -o "$name" "$@" &
     pid=$!
     await_handler "$pid"
 }

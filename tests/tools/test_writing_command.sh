@@ -215,7 +215,7 @@ check_names() {
 check_partial_of_long_names() {
     local long
     long=$(printf 'n%.0s' {1..251})
-    "${interruptible[@]}" "$strata" render hyperterrain --size 640x360 -N 16 --quiet -o "$long.exr" -o a.exr -o a.partial.exr &
+    "${interruptible[@]}" "$strata" render hyperterrain --size 640x360 -N 16 --quiet --no-journal -o "$long.exr" -o a.exr -o a.partial.exr &
     local pid=$!
     await_handler "$pid"
     await_hidden . 3
