@@ -23,6 +23,7 @@ namespace {
 using Random = std::mt19937_64;
 
 constexpr int kWidth = 64, kHeight = 36;
+constexpr int kDense = 40;      // samples a pixel and axis
 constexpr double kHaze = 40.0;  // surface units
 
 struct Named {
@@ -73,6 +74,12 @@ std::vector<Named> scenes() {
         s.surface.spin_deg_per_s = 80.0, s.surface.amplitude = 0.6, s.shutter.open_s = 0.4;
         s.surface.frequency = 1.0;
         s.camera.position = {2.3, 0.0, 0.0}, s.camera.look_at = {2.2, 0.1, -1.0};
+    }
+    // With many samples a pixel, cells are narrow enough for windows.
+    for (std::size_t i = 0, count = all.size(); i < count; ++i) {
+        Named& dense = all.emplace_back(all[i]);
+        dense.name += ", in windows";
+        dense.scene.sampling.N = kDense;
     }
     return all;
 }
@@ -181,6 +188,7 @@ TEST_CASE("a sample has the same bits alone, in a batch, in a shuffled batch, an
 
 TEST_CASE("the distances in a beamed picture are first hits within the tolerance, by the surface's definition") {
     Random random(62);
+    std::uint64_t windows = 0;
     for (const auto& item : scenes()) {
         const std::string& name = item.name;
         const scene::Scene& still = item.scene;
@@ -211,11 +219,14 @@ TEST_CASE("the distances in a beamed picture are first hits within the tolerance
         MESSAGE(name << ": " << hits << " hits, thickest stretch passed over " << thickest << " delta (bound 1), "
                      << undecided << " undecided");
         CHECK(hits == work.hits);
+        windows += work.phases[static_cast<std::size_t>(Phase::windows)].steps;
         CHECK(missed == 0);
         CHECK(unfounded == 0);
         CHECK(undecided * 100 <= static_cast<int>(samples.size()));
         CHECK(hits > samples.size() / 10);
     }
+    MESSAGE(windows << " windows");
+    CHECK(windows > 1000);
 }
 
 TEST_CASE("the reference tracer sees what beams see: hits and misses, and distances within both tolerances") {

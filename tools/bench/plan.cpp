@@ -54,6 +54,7 @@ class Planner {
 
     void figures();
     void scenes();
+    void rows();
     void octaves();
     void samples();
     void resolution();
@@ -128,6 +129,31 @@ void Planner::scenes() {
     }
 }
 
+// A picture's mean hides where its time goes: rays to the horizon take ten times as long as those to the foreground,
+// and those to the sky next to nothing. Blocks of one row of the grid each, spread over the frame's width; of a small
+// frame the rows would be the same.
+void Planner::rows() {
+    struct Band {
+        const char* name;
+        double height;  // part of the frame's, from the top, that lies in the row
+    };
+    const int blocks = plan_.settings.quick ? 1 : 3;
+    const FrameSize size{1920, 1080};
+    for (const Band& band :
+         {Band{"sky", 0.1}, Band{"horizon", 0.26}, Band{"far", 0.37}, Band{"middle", 0.5}, Band{"near", 0.8}}) {
+        Case made = sized(hyperterrain(), size, table_N());
+        made.scene_name += fmt::format(", {} rows", band.name);
+        const int y0 = static_cast<int>(band.height * size.height) / kBlockUnit * kBlockUnit;
+        const int columns = size.width / kBlockUnit;
+        made.subset.block = kBlockUnit;
+        for (int i = 0; i < blocks; ++i) {
+            const int x0 = (2 * i + 1) * columns / (2 * blocks) * kBlockUnit;
+            made.subset.windows.push_back({x0, y0, x0 + kBlockUnit, std::min(y0 + kBlockUnit, size.height)});
+        }
+        add(made);
+    }
+}
+
 void Planner::octaves() {
     for (const int N : {2, table_N()}) {
         Curve curve{Section::octaves, "octaves", fmt::format("N = {}", N), {}};
@@ -191,10 +217,11 @@ void Planner::subset() {
 
 Plan Planner::plan() {
     const std::vector<std::pair<Section, void (Planner::*)()>> makers{
-        {Section::figures, &Planner::figures},       {Section::scenes, &Planner::scenes},
-        {Section::octaves, &Planner::octaves},       {Section::samples, &Planner::samples},
-        {Section::resolution, &Planner::resolution}, {Section::threads, &Planner::threads},
-        {Section::reference, &Planner::reference},   {Section::subset, &Planner::subset}};
+        {Section::figures, &Planner::figures}, {Section::scenes, &Planner::scenes},
+        {Section::rows, &Planner::rows},       {Section::octaves, &Planner::octaves},
+        {Section::samples, &Planner::samples}, {Section::resolution, &Planner::resolution},
+        {Section::threads, &Planner::threads}, {Section::reference, &Planner::reference},
+        {Section::subset, &Planner::subset}};
     for (const auto& [section, make] : makers) {
         if (plan_.has(section)) (this->*make)();
     }
@@ -212,6 +239,7 @@ const std::vector<SectionName>& section_names() {
     static const std::vector<SectionName> names{
         {Section::figures, "figures", "what the target figures are taken from", true},
         {Section::scenes, "scenes", "every scene, size and N", true},
+        {Section::rows, "rows", "hyperterrain by rows of the frame, from the sky to the foreground", true},
         {Section::octaves, "octaves", "cost against octaves: 4, 8, 16, 24", true},
         {Section::samples, "samples", "cost against N", true},
         {Section::resolution, "resolution", "cost against the frame's width", true},

@@ -9,7 +9,7 @@
 
 namespace strata::tools::bench {
 
-enum class Section { figures, scenes, octaves, samples, resolution, threads, reference, subset, peers, memory };
+enum class Section { figures, scenes, rows, octaves, samples, resolution, threads, reference, subset, peers, memory };
 
 struct SectionName {
     Section section;
