@@ -5,20 +5,25 @@
 
 #include "shaders_cpu/closed_list.h"
 #include "shaders_cpu/media/daylight_air.h"
+#include "shaders_cpu/media/fog.h"
 #include "shaders_cpu/media/haze.h"
+#include "shaders_cpu/medium_ray.h"
 #include "shaders_cpu/medium_segment.h"
 
 namespace strata::shaders {
 
-// along: a ray's first `distance` surface units from the eye in a unit direction, by the axes in which the sky lies.
+// along: what is between the eye and the end of a ray.
+// kBeforeBackground: whether rays that meet nothing go through it, too. A background holds what is in front of it as a
+// rule: the sky is seen through all of the air.
 template <class T>
-concept MediumMember = ListMember<T> && requires(const T medium, const glm::dvec3& direction, double distance) {
-    { medium.along(direction, distance) } -> std::same_as<MediumSegment>;
+concept MediumMember = ListMember<T> && requires(const T medium, const MediumRay& ray) {
+    { T::kBeforeBackground } -> std::convertible_to<bool>;
+    { medium.along(ray) } -> std::same_as<MediumSegment>;
 };
 
 template <MediumMember... Members>
 using MediumList = std::variant<Members...>;
 
-using Medium = MediumList<Haze, DaylightAir>;
+using Medium = MediumList<Haze, DaylightAir, Fog>;
 
 }  // namespace strata::shaders

@@ -14,19 +14,20 @@
 #include <glm/glm.hpp>
 
 #include "shaders_cpu/closed_list.h"
+#include "shaders_cpu/medium_ray.h"
 #include "shaders_cpu/medium_segment.h"
 
 namespace strata::shaders {
 
 class DaylightAir {
   public:
+    static constexpr bool kBeforeBackground = false;
+
     static bool is_in(const scene::Scene& scene) { return scene.sky.model == scene::SkyModel::daylight; }
 
     explicit DaylightAir(const ShaderInputs& inputs) : daylight_(inputs.daylight) {}
 
-    MediumSegment along(const glm::dvec3& direction, double distance) const {
-        return daylight_->air_along(direction, distance);
-    }
+    MediumSegment along(const MediumRay& ray) const { return daylight_->air_along(ray.direction, ray.distance); }
 
   private:
     const DaylightScene* daylight_;

@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 
 #include "shaders_cpu/closed_list.h"
+#include "shaders_cpu/medium_ray.h"
 #include "shaders_cpu/medium_segment.h"
 #include "shaders_cpu/sky.h"
 
@@ -19,6 +20,8 @@ namespace strata::shaders {
 
 class Haze {
   public:
+    static constexpr bool kBeforeBackground = false;
+
     static bool is_in(const scene::Scene& scene) {
         return scene.sky.model == scene::SkyModel::gradient && scene.sky.haze_distance > 0.0;
     }
@@ -26,9 +29,9 @@ class Haze {
     explicit Haze(const ShaderInputs& inputs) : sky_(inputs.scene.sky) {}
 
     // An infinite distance gives the sky alone.
-    MediumSegment along(const glm::dvec3& direction, double distance) const {
-        const auto clear = static_cast<float>(std::exp(-std::max(distance, 0.0) / sky_.haze_distance));
-        return {.transmittance = glm::vec3(clear), .inscatter = sky_radiance(sky_, direction) * (1.0f - clear)};
+    MediumSegment along(const MediumRay& ray) const {
+        const auto clear = static_cast<float>(std::exp(-std::max(ray.distance, 0.0) / sky_.haze_distance));
+        return {.transmittance = glm::vec3(clear), .inscatter = sky_radiance(sky_, ray.direction) * (1.0f - clear)};
     }
 
   private:

@@ -179,6 +179,21 @@ Section sky_section(Sky& sky, bool matters) {
                                   "daylight: of the sky's light on the ground; 1 is true, more fills shadows"))});
 }
 
+Section fog_section(Fog& fog, bool matters) {
+    const bool is_foggy = fog.visibility_m > 0.0;
+    return section(
+        "fog", "fog that lies low: thins upwards, exp(-(y - level_m) / fall_m)", matters,
+        {number("visibility_m", fog.visibility_m, {0.0, 1e7}, "m",
+                "at its level, distance at which 2 % of the contrast is left; 0: no fog"),
+         only_if(is_foggy, number("level_m", fog.level_m, {-1e5, 1e5}, "m", "its height over the surface's y = 0")),
+         only_if(is_foggy, number("fall_m", fog.fall_m, {0.01, 1e5}, "m", "height over which it thins to 1/e")),
+         only_if(is_foggy,
+                 number("rise_m", fog.rise_m, {0.0, 1e5}, "m", "how far a noise lifts and lowers it; 0: it lies even")),
+         only_if(is_foggy, number("patch_m", fog.patch_m, {0.1, 1e7}, "m", "length of that noise's largest waves")),
+         only_if(is_foggy, number("forward", fog.forward, {-0.95, 0.95}, "",
+                                  "mean cosine of its scattering: 0 even, near 1 a bright glow about the sun"))});
+}
+
 Section material_section(Material& material, bool matters) {
     return section(
         "material", "diffuse reflectance by height and slope", matters,
@@ -207,6 +222,12 @@ Section describe_camera_key(CameraKey& entry, Camera& rest, std::size_t index) {
                 "horizontal field of view")});
 }
 
+namespace {
+
+bool is_in_metres(const Scene& scene) { return scene.sky.model == SkyModel::daylight || scene.fog.visibility_m > 0.0; }
+
+}  // namespace
+
 std::vector<Section> describe(Scene& scene) {
     using namespace key_makers;
     const bool surface = scene.image == ImageKind::surface;
@@ -216,9 +237,10 @@ std::vector<Section> describe(Scene& scene) {
                              shutter_section(scene.shutter),
                              camera_section(scene.camera, surface),
                              surface_section(scene.surface, surface),
-                             scale_section(scene.scale, surface && scene.sky.model == SkyModel::daylight),
+                             scale_section(scene.scale, surface && is_in_metres(scene)),
                              sun_section(scene.sun, scene.sky.model == SkyModel::daylight, surface),
                              sky_section(scene.sky, surface),
+                             fog_section(scene.fog, surface),
                              material_section(scene.material, surface)};
     add_pattern_sections(scene, all);
     for (noise::ReliefTerm& term : scene.surface.relief) {

@@ -144,6 +144,16 @@ struct Sky {
     double gain = 1.0;            // of the sky's light on the ground; 1 is true, more is a photographer's fill
 };
 
+// Low-lying fog (shaders_cpu/media/fog.h), in metres.
+struct Fog {
+    double visibility_m = 0.0;  // at its level, where 2 % of the contrast is left; 0: no fog
+    double level_m = 0.0;       // over y = 0
+    double fall_m = 50.0;       // height over which it thins to 1/e
+    double rise_m = 0.0;        // how far a noise lifts and lowers it
+    double patch_m = 4000.0;    // length of that noise's largest waves
+    double forward = 0.6;       // mean cosine of scattering
+};
+
 struct Material {
     glm::dvec3 low{0.16, 0.20, 0.07};    // meadow: below band_height, gentle slopes
     glm::dvec3 high{0.86, 0.88, 0.92};   // snow: above band_height, gentle slopes
@@ -195,6 +205,7 @@ struct Scene {
     Scale scale;
     Sun sun;
     Sky sky;
+    Fog fog;
     Material material;
     Zoneplate zoneplate;
     Checker checker;

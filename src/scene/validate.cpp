@@ -48,6 +48,20 @@ void check_daylight(const Scene& scene) {
     }
 }
 
+// The same is true of fog, whose level is a height.
+void check_fog(const Scene& scene) {
+    if (scene.fog.visibility_m <= 0.0) return;
+    const solid::KindRow& kind = solid::row_of(scene.surface.kind);
+    if (!kind.is_level) {
+        throw SceneError(fmt::format("fog.visibility_m: fog lies level, a {} does not, allowed: 0 here", kind.name));
+    }
+    if (scene.surface.spin_deg_per_s != 0.0) {
+        throw SceneError(
+            "fog.visibility_m: fog stands still over a surface that does not, allowed: surface.spin_deg_per_s = 0, or "
+            "0 here");
+    }
+}
+
 void check_relief(const Scene& scene) {
     const auto& terms = scene.surface.relief;
     if (terms.size() > kMostReliefTerms) {
@@ -148,6 +162,7 @@ void validate(const Scene& scene, std::string_view source_name) {
         if (scene.image == ImageKind::surface) {
             check_view(scene.camera);
             check_daylight(scene);
+            check_fog(scene);
             check_relief(scene);
             if (scene.surface.relief.empty()) {
                 check_octaves(scene);

@@ -34,7 +34,7 @@ bool between(const glm::vec3& value, const glm::dvec3& a, const glm::dvec3& b) {
 glm::vec3 apply_haze(const scene::Sky& sky, const glm::vec3& radiance, double distance, const glm::dvec3& direction) {
     scene::Scene scene;
     scene.sky = sky;
-    return Haze({scene, nullptr}).along(direction, distance).over(radiance);
+    return Haze({scene, nullptr}).along({glm::dvec3(0.0), direction, distance}).over(radiance);
 }
 
 }  // namespace
