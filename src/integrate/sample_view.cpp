@@ -1,5 +1,7 @@
 #include "src/integrate/sample_view.h"
 
+#include <limits>
+
 #include "src/integrate/light.h"
 #include "src/integrate/place.h"
 
@@ -99,14 +101,19 @@ shaders::ShadingPoint SampleView::point_before(std::size_t light) const {
     return point;
 }
 
-// look(segment) of each medium between eye and hit.
+bool SampleView::is_miss() const {
+    return chunk_ != nullptr && chunk_->hits[sample_].state == trace::HitState::miss;
+}
+
+// look(segment) of each medium between the eye and the hit, or before the background.
 template <class Look>
 void SampleView::look_through_media(const Look& look) const {
-    const glm::dvec3& direction = chunk_->view_of(sample_);
-    const double distance = chunk_->surface_hits[hit_].s;
-    for (const shaders::Medium& medium : setup_->media) {
-        look(std::visit([&](const auto& member) { return member.along(direction, distance); }, medium));
-    }
+    const double distance = is_hit() ? chunk_->surface_hits[hit_].s : std::numeric_limits<double>::infinity();
+    const shaders::MediumRay ray{chunk_->rays[sample_].origin, chunk_->view_of(sample_), distance};
+    const auto look_through = [&]<class Member>(const Member& member) {
+        if (is_hit() || Member::kBeforeBackground) look(member.along(ray));
+    };
+    for (const shaders::Medium& medium : setup_->media) std::visit(look_through, medium);
 }
 
 // What the hit's sky ray brought (sky_rays.cpp).
@@ -142,11 +149,19 @@ glm::vec3 SampleView::reflected(shaders::LightLayer layer) const {
 
 glm::vec3 SampleView::inscatter() const {
     glm::vec3 seen(0.0f);
-    if (is_hit()) look_through_media([&](const shaders::MediumSegment& segment) { seen = segment.over(seen); });
+    if (!is_hit() && !is_miss()) return seen;
+    look_through_media([&](const shaders::MediumSegment& segment) { seen = segment.over(seen); });
     return seen;
 }
 
-glm::vec3 SampleView::background() const { return is_hit() ? glm::vec3(0.0f) : radiance_; }
+glm::vec3 SampleView::background() const {
+    if (is_hit()) return glm::vec3(0.0f);
+    if (!is_miss()) return radiance_;
+    const glm::dvec3& direction = chunk_->view_of(sample_);
+    glm::vec3 seen = std::visit([&](const auto& member) { return member.radiance(direction); }, setup_->background);
+    look_through_media([&](const shaders::MediumSegment& segment) { seen *= segment.transmittance; });
+    return seen;
+}
 
 double SampleView::sun_visibility() const {
     if (!is_hit()) return 0.0;

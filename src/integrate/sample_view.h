@@ -76,6 +76,7 @@ class SampleView {
 
     double time() const { return batch_->t[chunk_->order[sample_]]; }
     glm::dvec3 direction() const;
+    bool is_miss() const;
     std::optional<glm::dvec2> next_place() const;
     shaders::ShadingPoint point_before(std::size_t light) const;
     glm::vec3 sky_ray_light(shaders::LightLayer layer) const;

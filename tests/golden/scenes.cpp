@@ -182,6 +182,10 @@ std::vector<GoldenScene> daylights() {
                       "sky.gain=1.5", "surface.drift=[3,0,2]"} +
                  kShutter},
         {.name = "daylight_layers", .keys = daylight + Keys{"sampling.m=3"}, .channels = kLight},
+        {.name = "daylight_fog",
+         .keys = daylight + kStratified +
+                 Keys{"fog.visibility_m=3000", "fog.level_m=20", "fog.fall_m=60", "fog.rise_m=30", "fog.patch_m=900"}},
+        {.name = "even_fog", .keys = kTerrain + Keys{"scale.metres=300", "fog.visibility_m=5000", "fog.forward=0"}},
         {.name = "daylight_no_shadows",
          .keys = daylight + kNoShadows + Keys{"surface.kind=hyperterrain", "surface.rotation_deg=[10,40,-15]"}},
     };

@@ -13,12 +13,12 @@ using namespace strata;
 
 namespace {
 
-// Layers and colour are sums of the same products in another order. With u = 2^-24, a sample's colour is (R L) T + air
-// in float, L being a sum of at most four terms: three additions, two products and one more addition are within 6 u of
-// the exact value of terms that are not negative. A layer is (R x) T, x being a sum of at most two of these terms:
-// within 3 u; air is the very term. Means in double by equal weights keep these shares, and each pixel of colour and
-// layers is rounded once: 6 + 3 + 2 units of the sum.
-constexpr double kLayerError = 11 * 0x1p-24;
+// Layers and colour are sums of the same products in another order. With u = 2^-24, a sample's colour is
+// ((R L) S + air) T + fog in float, L being a sum of at most four terms: three additions, three products and two more
+// additions are within 8 u of the exact value of terms that are not negative. A layer is ((R x) S) T, x being a sum of
+// at most two of these terms: within 4 u; air is within 2 u. Means in double by equal weights keep these shares, and
+// each pixel of colour and layers is rounded once: 8 + 4 + 2 units of the sum.
+constexpr double kLayerError = 14 * 0x1p-24;
 
 constexpr std::array kLayers{"sun", "sky", "bounce", "air", "background"};
 
@@ -99,5 +99,21 @@ TEST_CASE("layers add up where a soft sun, sky rays and reflected light are in t
         std::array<double, kLayers.size()> used{};
         CHECK(largest_error(small_render(scene, scene::EstimatorKind::stratified).film, used) <= 1.0);
         for (const double sum : used) CHECK(sum > 0.0);
+    }
+}
+
+TEST_CASE("layers add up where fog is before the ground and the sky") {
+    scene::Scene scene = scene::read_scene(scene::find_builtin("terrain")->text, "terrain");
+    scene.scale.metres = 300.0;
+    scene.fog = {.visibility_m = 3000.0, .level_m = 20.0, .fall_m = 60.0, .rise_m = 30.0, .patch_m = 900.0};
+    for (const auto model : {scene::SkyModel::gradient, scene::SkyModel::daylight}) {
+        scene.sky.model = model;
+        std::array<double, kLayers.size()> used{}, clear{};
+        CHECK(largest_error(small_render(scene, scene::EstimatorKind::stratified).film, used) <= 1.0);
+        scene::Scene without = scene;
+        without.fog.visibility_m = 0.0;
+        CHECK(largest_error(small_render(without, scene::EstimatorKind::stratified).film, clear) <= 1.0);
+        CHECK(used[3] > clear[3]);
+        CHECK(used[4] < clear[4]);
     }
 }
