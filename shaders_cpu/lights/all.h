@@ -17,7 +17,8 @@ namespace strata::shaders {
 // evenly by solid angle; on_white then is what makes the mean right. casts_shadows: whether a ray in that direction
 // decides if the light arrives. Light of the whole sky has none. on_white: linear radiance of a white Lambert surface
 // in this light alone, with nothing in its way.
-// kLayer: where it shows when a picture is asked for its light in layers.
+// kLayer: where it shows when a picture is asked for its light in layers. What is of the sun comes from one direction,
+// so that rough surfaces spread it (rough_lobe.h).
 template <class T>
 concept LightMember = ListMember<T> && requires(const T light, const ShadingPoint& point) {
     { T::kLayer } -> std::convertible_to<LightLayer>;

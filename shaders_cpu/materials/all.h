@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shaders_cpu/closed_list.h"
+#include "shaders_cpu/materials/layers.h"
 #include "shaders_cpu/materials/terrain.h"
 #include "shaders_cpu/shading_point.h"
 
@@ -14,9 +15,17 @@ concept MaterialMember = ListMember<T> && requires(const T material, const Shadi
     { material.reflectance(point) } -> std::same_as<glm::vec3>;
 };
 
+// One that looks at the point's footprint, noise_shift and up. Where is_rough() says so, its look()
+// counts instead of reflectance(): light from one direction is spread by rough_lobe.h.
+template <class T>
+concept DetailedMaterial = MaterialMember<T> && requires(const T material, const ShadingPoint& point) {
+    { material.is_rough() } -> std::same_as<bool>;
+    { material.look(point) } -> std::same_as<SurfaceLook>;
+};
+
 template <MaterialMember... Members>
 using MaterialList = std::variant<Members...>;
 
-using Material = MaterialList<TerrainMaterial>;
+using Material = MaterialList<LayersMaterial, TerrainMaterial>;
 
 }  // namespace strata::shaders

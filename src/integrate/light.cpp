@@ -1,5 +1,6 @@
 #include "src/integrate/light.h"
 
+#include "src/integrate/hit_shading.h"
 #include "src/integrate/phase_meter.h"
 #include "src/integrate/sky_rays.h"
 
@@ -38,9 +39,7 @@ void add_light(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& chunk) {
     const auto add = [&](const auto& light) {
         for (std::size_t i = 0; i < chunk.sample.size(); ++i) {
             if (!visibility.empty() && visibility[i] == 0.0f) continue;
-            shaders::ShadingPoint point = shading_point(chunk, i);
-            point.to_light = chunk.to_light_of_hit(l, i);
-            chunk.light[i] += light.on_white(point);
+            chunk.light[i] += light_on_white(light, chunk, l, i);
         }
     };
     std::visit(add, setup.lights[l].light);
@@ -49,7 +48,7 @@ void add_light(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& chunk) {
 void reflect(const SurfaceSetup& setup, SurfaceChunk& chunk) {
     const auto reflect_by = [&](const auto& material) {
         for (std::size_t i = 0; i < chunk.sample.size(); ++i)
-            chunk.radiance[chunk.sample[i]] = material.reflectance(shading_point(chunk, i)) * chunk.light[i];
+            chunk.radiance[chunk.sample[i]] = reflectance_of(material, setup, chunk, i) * chunk.light[i];
     };
     std::visit(reflect_by, setup.material);
 }
@@ -59,6 +58,7 @@ void reflect(const SurfaceSetup& setup, SurfaceChunk& chunk) {
 void illuminate(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counters) {
     PhaseMeter meter(counters);
     find_heights(setup, chunk);
+    look_at_ground(setup, chunk);
     chunk.light.assign(chunk.sample.size(), glm::vec3(0.0f));
     for (std::size_t l = 0; l < setup.lights.size(); ++l) add_light(setup, l, chunk);
     meter.book(Phase::shading);

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "src/integrate/hit_shading.h"
 #include "src/integrate/light.h"
 #include "src/integrate/place.h"
 
@@ -70,8 +71,8 @@ glm::dvec3 SampleView::normal() const {
 
 glm::vec3 SampleView::reflectance() const {
     if (!is_hit()) return glm::vec3(0.0f);
-    const shaders::ShadingPoint point = shading_point(*chunk_, hit_);
-    return std::visit([&](const auto& material) { return material.reflectance(point); }, setup_->material);
+    const auto reflect = [&](const auto& material) { return reflectance_of(material, *setup_, *chunk_, hit_); };
+    return std::visit(reflect, setup_->material);
 }
 
 double SampleView::height_mask() const {
@@ -94,16 +95,7 @@ double SampleView::slope_mask() const {
     return std::visit(mask, setup_->material);
 }
 
-// The hit as a light sees it.
-shaders::ShadingPoint SampleView::point_before(std::size_t light) const {
-    shaders::ShadingPoint point = shading_point(*chunk_, hit_);
-    point.to_light = chunk_->to_light_of_hit(light, hit_);
-    return point;
-}
-
-bool SampleView::is_miss() const {
-    return chunk_ != nullptr && chunk_->hits[sample_].state == trace::HitState::miss;
-}
+bool SampleView::is_miss() const { return chunk_ != nullptr && chunk_->hits[sample_].state == trace::HitState::miss; }
 
 // look(segment) of each medium between the eye and the hit, or before the background.
 template <class Look>
@@ -137,7 +129,7 @@ glm::vec3 SampleView::reflected(shaders::LightLayer layer) const {
     for (std::size_t l = 0; l < setup_->lights.size(); ++l) {
         if (!chunk_->sees_light(l, hit_)) continue;
         const auto add = [&]<class Member>(const Member& member) {
-            if (Member::kLayer == layer) light += member.on_white(point_before(l));
+            if (Member::kLayer == layer) light += light_on_white(member, *chunk_, l, hit_);
         };
         std::visit(add, setup_->lights[l].light);
     }

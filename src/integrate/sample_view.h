@@ -78,7 +78,6 @@ class SampleView {
     glm::dvec3 direction() const;
     bool is_miss() const;
     std::optional<glm::dvec2> next_place() const;
-    shaders::ShadingPoint point_before(std::size_t light) const;
     glm::vec3 sky_ray_light(shaders::LightLayer layer) const;
     template <class Look>
     void look_through_media(const Look& look) const;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "shaders_cpu/shading_point.h"
 #include "src/accel/sun_beams.h"
 #include "src/accel/zones.h"
 #include "src/sample/dimensions.h"
@@ -79,6 +80,7 @@ struct SurfaceChunk {
     ShadowRays shadow;
     std::vector<float> visibility;              // light l's from the hits, from [l * hits] on; empty: all see all
     std::vector<double> height, up_dot_normal;  // of each hit: ShadingPoint
+    std::vector<shaders::SurfaceLook> looks;    // of each hit; empty unless the material is rough
     std::vector<glm::vec3> light;               // radiance that a white Lambert surface would have at each hit
     std::vector<glm::vec3> radiance;            // of each sample
 

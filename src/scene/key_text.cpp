@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <type_traits>
 
@@ -70,6 +72,12 @@ std::string without_controls(std::string_view text) {
 }
 
 }  // namespace
+
+bool is_name(std::string_view name) {
+    const auto is_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+    return !name.empty() && name.size() <= 64 && std::isalpha(static_cast<unsigned char>(name.front())) != 0 &&
+           std::ranges::all_of(name, is_word);
+}
 
 std::string number_text(double value) {
     std::string text = fmt::format("{}", value);

@@ -10,6 +10,9 @@
 
 namespace strata::scene {
 
+// Whether it may name an entry of a list: a letter, then letters, digits, '_' and '-', 64 at most.
+bool is_name(std::string_view name);
+
 // A double as TOML: the shortest decimal that reads back as the same bits, always with a point or an exponent.
 std::string number_text(double value);
 

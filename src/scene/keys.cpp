@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "src/scene/enum_names.h"
+#include "src/scene/ground_keys.h"
 #include "src/scene/key_list.h"
 #include "src/scene/key_makers.h"
 #include "src/scene/pattern_keys.h"
@@ -241,10 +242,14 @@ std::vector<Section> describe(Scene& scene) {
                              sun_section(scene.sun, scene.sky.model == SkyModel::daylight, surface),
                              sky_section(scene.sky, surface),
                              fog_section(scene.fog, surface),
-                             material_section(scene.material, surface)};
+                             material_section(scene.material, surface && scene.ground.empty())};
     add_pattern_sections(scene, all);
     for (noise::ReliefTerm& term : scene.surface.relief) {
         all.push_back(describe_relief_term(term));
+        for (Key& key : all.back().keys) key.matters = surface;
+    }
+    for (GroundLayer& layer : scene.ground) {
+        all.push_back(describe_ground_layer(layer));
         for (Key& key : all.back().keys) key.matters = surface;
     }
     return all;

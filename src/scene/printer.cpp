@@ -50,6 +50,7 @@ std::string print_scene(const Scene& scene, PrintedKeys keys) {
     for (const noise::ReliefTerm& term : scene.surface.relief) {
         default_scene.surface.relief.push_back(default_relief_term(term.node.index()));
     }
+    default_scene.ground.resize(scene.ground.size());
     const std::vector<Section> sections = describe(copy);
     const std::vector<Section> defaults = describe(default_scene);
 
@@ -65,7 +66,9 @@ std::string print_scene(const Scene& scene, PrintedKeys keys) {
                 lines.push_back(line_of(key, of_defaults));
         }
         if (lines.empty()) continue;
-        const std::string heading = section.is_term ? "[[relief]]" : fmt::format("[{}]", section.name);
+        const std::string heading = section.is_term
+                                        ? fmt::format("[[{}]]", section.name.substr(0, section.name.find('.')))
+                                        : fmt::format("[{}]", section.name);
         if (!section.name.empty()) text += fmt::format("\n{}  # {}\n", heading, section.meaning);
         text += aligned(lines);
     }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
 #include "src/scene/key_list.h"
@@ -32,12 +31,6 @@ ReliefNode default_node(std::size_t type) {
         if (type != I) return default_node<I + 1>(type);
     }
     return ReliefNode(std::in_place_index<I>);
-}
-
-bool is_name(std::string_view name) {
-    const auto is_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
-    return !name.empty() && name.size() <= 64 && std::isalpha(static_cast<unsigned char>(name.front())) != 0 &&
-           std::ranges::all_of(name, is_word);
 }
 
 std::string inputs_allowed(int fewest, int most) {

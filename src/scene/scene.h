@@ -9,6 +9,7 @@
 
 #include "noise/relief/relief.h"
 #include "src/scene/estimators.h"
+#include "src/scene/ground.h"
 #include "src/scene/rate.h"
 #include "src/solid/solid.h"
 
@@ -207,6 +208,7 @@ struct Scene {
     Sky sky;
     Fog fog;
     Material material;
+    std::vector<GroundLayer> ground{};  // lowest first; none: material alone. In scene files: [[ground]]
     Zoneplate zoneplate;
     Checker checker;
     Wheel wheel;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "src/scene/camera_path.h"
+#include "src/scene/ground_keys.h"
 #include "src/scene/key_text.h"
 #include "src/scene/keys.h"
 #include "src/scene/needs.h"
@@ -73,6 +74,24 @@ void check_relief(const Scene& scene) {
             throw SceneError(fmt::format(
                 "relief.{}.type: only over a height field, allowed: surface.kind = \"terrain\"", terms[i].name));
         }
+    }
+}
+
+void check_ground(const Scene& scene) {
+    if (scene.ground.size() > kMostGroundLayers) {
+        throw SceneError(fmt::format("ground: {} layers, allowed: {} at most", scene.ground.size(), kMostGroundLayers));
+    }
+    for (std::size_t i = 0; i < scene.ground.size(); ++i) {
+        if (const std::string problem = ground_problem(scene.ground, i); !problem.empty()) throw SceneError(problem);
+    }
+    for (const GroundLayer& layer : scene.ground) {
+        const double cells = finest_ground_cells(layer), farthest = noise_reach(scene);
+        if (cells * farthest <= kMostCells) continue;
+        throw SceneError(fmt::format(
+            "ground.{}: its finest noise has {:.3g} cells a surface unit, and is seen up to {:.3g} surface units from "
+            "surface.origin: more than 2^50 cells, too fine for double precision, allowed: fewer octaves, larger "
+            "sizes, or a lower camera.far",
+            layer.name, cells, farthest));
     }
 }
 
@@ -164,6 +183,7 @@ void validate(const Scene& scene, std::string_view source_name) {
             check_daylight(scene);
             check_fog(scene);
             check_relief(scene);
+            check_ground(scene);
             if (scene.surface.relief.empty()) {
                 check_octaves(scene);
             } else {

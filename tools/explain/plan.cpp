@@ -115,7 +115,12 @@ void add_surface(FeatureList& list, const scene::Scene& scene) {
     list.add("haze", daylight || scene.sky.haze_distance > 0.0,
              daylight ? "the air between, by sky.visibility_km" : "a hit's colour fades into the sky behind it",
              "sky.haze_distance is 0");
-    list.add("material", true, "colour by height and slope: [material]");
+    const bool layered = !scene.ground.empty();
+    list.add("ground", layered,
+             layered
+                 ? fmt::format("{} layers of [[ground]], by height, slope, facing, noise and beds", scene.ground.size())
+                 : "no [[ground]]: colour by [material]");
+    list.add("material", !layered, "colour by height and slope: [material]", "[[ground]] stands for [material]");
 }
 
 std::vector<ReliefRow> relief_rows(const scene::Surface& surface) {
