@@ -264,11 +264,52 @@ of = ["carved", "rough"]
     };
 }
 
+// Layers of ground: every kind of mask, rough and smooth, over a height field, a planet and ground that drifts.
+std::vector<GoldenScene> layers() {
+    const std::string ground = R"([[ground]]
+name = "rock"
+kind = "granite"
+tone = 0.8
+tone_size = 0.7
+tone_stretch = 0.5
+[[ground]]
+name = "beds"
+kind = "red_sandstone"
+strata_from = 0.0
+strata_thickness = 0.2
+strata_warp = 0.1
+[[ground]]
+name = "grass"
+kind = "grass"
+cover = 0.9
+slope_to_deg = 30.0
+slope_noise_deg = 5.0
+noise_from = -0.5
+[[ground]]
+name = "snow"
+kind = "fresh_snow"
+height_from = 0.4
+height_noise = 0.1
+aspect = [0.8, 0.0, -0.35]
+facing_from = -0.1
+noise_size = 0.5
+)";
+    return {
+        {.name = "ground", .keys = kTerrain, .relief = ground},
+        {.name = "ground_rough_drift",
+         .keys = kTerrain + kShutter + kStratified + Keys{"ground.rock.roughness=0.7", "surface.drift=[3,0,2]"},
+         .relief = ground},
+        {.name = "ground_planet",
+         .keys = kPlanet + Keys{"ground.snow.height_from=0.02", "ground.beds.roughness=0.3", "sampling.N=1"},
+         .relief = ground},
+    };
+}
+
 }  // namespace
 
 std::vector<GoldenScene> golden_scenes() {
     std::vector<GoldenScene> all;
-    for (auto* group : {grounds, bodies, extremes, estimators, daylights, soft_lights, reliefs}) {
+    for (auto* group : {grounds, bodies, extremes, estimators, daylights, soft_lights, reliefs, layers}) {
         for (GoldenScene& golden : group()) all.push_back(std::move(golden));
     }
     return all;
