@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "noise/relief/frame.h"
 #include "noise/relief/nodes/all.h"
+#include "noise/relief/pits.h"
 #include "noise/relief/stripe.h"
 
 namespace strata::noise {
@@ -60,6 +62,8 @@ class BoundNumbers : public ReliefFrame {
 
     static Number begin_sum() { return {}; }
     static bool sees(Number&, std::size_t, const Domain&, double, double) { return true; }
+    static bool sees_cells(Number&, double, const Domain&, double, double) { return true; }
+    static bool sees_weighed(Number&, std::size_t, const Domain&, const Number&, double, double) { return true; }
     static void add(Number& sum, const Number& term) { sum = plus(sum, term); }
     static Number total(const Number& sum) { return sum; }
 
@@ -93,6 +97,33 @@ class BoundNumbers : public ReliefFrame {
         part.low = std::max(part.low, std::min(whole.low, 0.0));
         part.high = std::min(part.high, whole.high);
         return part;
+    }
+
+    // (1 - s) a + s b for a share s in [0, 1]: (1 - s) a' + s b' + (b - a) s', and so on.
+    static Number mixed(const Number& a, const Number& b, const Number& share) {
+        const double apart = std::max(b.high - a.low, a.high - b.low);
+        return {std::min(a.low, b.low), std::max(a.high, b.high), std::max(a.slope, b.slope) + apart * share.slope,
+                std::max(a.bend, b.bend) + 2.0 * (a.slope + b.slope) * share.slope + apart * share.bend};
+    }
+    // m = (a + b + R) / 2, R^2 = d^2 + softness^2 with d = a - b: m' is between a' and b', and m'' as well but for
+    // softness^2 d'^2 / (2 R^3) <= d'^2 / (2 softness). m rises with a and with b.
+    static Number highest(const Number& a, const Number& b, double softness) {
+        const auto of = [&](double x, double y) { return 0.5 * (x + y + std::hypot(x - y, softness)); };
+        const double apart = a.slope + b.slope;
+        return {of(a.low, b.low), of(a.high, b.high), std::max(a.slope, b.slope),
+                std::max(a.bend, b.bend) + apart * apart / (2.0 * softness)};
+    }
+    static Number along(const Domain& at, double per_x, double per_z, double, bool) {
+        constexpr double kEndless = std::numeric_limits<double>::infinity();
+        const double per = std::hypot(per_x, per_z);
+        return {-kEndless, kEndless, per * at.slope, per * at.bend};
+    }
+
+    Number pits(std::size_t k, const Domain& at, double) const {
+        constexpr PitBounds of;
+        const double frequency = part().octaves[k].frequency, across = frequency * at.slope;
+        return {2.0 * kWidest * of.low, 4.0 * kWidest * of.high, 4.0 * of.slope * across,
+                4.0 * of.bend_down / kNarrowest * across * across + 4.0 * of.slope * frequency * at.bend};
     }
 
     // By u = x^2 + z^2 of the scaled coordinates 1 / (1 + u)^2 falls by 4 sqrt(u) / (1 + u)^3 <= 1.08 along the radius,

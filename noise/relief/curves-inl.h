@@ -7,6 +7,10 @@
 //   bend_down(lo, hi)       at least the largest -g'' on [lo, hi], and at least 0
 //   range(lo, hi)           the least and the largest g on [lo, hi]
 //   steepest(lo, hi)        the largest |g'| on [lo, hi]
+// and may give
+//   span(lo, hi)            the least and the largest g, of any numbers (kHasSpan): bounds over large balls
+//   value_unit(v), slope_unit(v)   what the roundings of g and g' are in proportion to, where that is more than
+//                           1 + |g| and 1 + |g'|
 // Bounds are those of exact arithmetic; rounding comes on top (src/trace/enclosure_rules-inl.h).
 #if defined(STRATA_NOISE_RELIEF_CURVES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STRATA_NOISE_RELIEF_CURVES_INL_H_
@@ -21,6 +25,12 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::noise::HWY_NAMESPACE {
+
+// The least and the largest of something.
+template <class V>
+struct Span {
+    V low, high;
+};
 
 // (1 - sqrt(v^2 + e^2))^2, v in [-1, 1]: a crest along v = 0 with a top of curvature 1/e, flat valleys at |v| = 1.
 // With r = sqrt(v^2 + e^2): g' = 2 v - 2 v / r and g'' = 2 - 2 e^2 / r^3, which rises with |v| from 2 - 2 / e < 0.
@@ -96,6 +106,16 @@ struct SoftClip {
 struct FillCurve {
     double floor, softness;
 
+    // v - f is off by the roundings of both.
+    template <class V>
+    HWY_INLINE V value_unit(V v) const {
+        return fixed<V>(std::abs(floor)) + size(v);
+    }
+    template <class V>
+    HWY_INLINE V slope_unit(V v) const {
+        return fixed<V>(1.0 / softness) * (fixed<V>(std::abs(floor)) + size(v));
+    }
+
     template <class V>
     HWY_INLINE V distance(V v) const {
         const V d = v - fixed<V>(floor);
@@ -115,6 +135,160 @@ struct FillCurve {
         const V nearest = f + greatest(greatest(lo - f, f - hi), fixed<V>(0.0));
         const V r = distance(nearest);
         return fixed<V>(0.5 * softness * softness) / (r * r * r);
+    }
+    template <class V>
+    HWY_INLINE V bend_down(V, V) const {
+        return fixed<V>(0.0);
+    }
+    std::pair<double, double> range(double lo, double hi) const { return {value(lo), value(hi)}; }
+    double steepest(double, double hi) const { return slope(hi); }
+};
+
+// m (sqrt(v^2 + e^2) - e): |v| with a rounded valley. With r = sqrt(v^2 + e^2), g' = m v / r, and g'' = m e^2 / r^3 is
+// largest where |v| is least.
+struct BillowCurve {
+    double roundness, scale;  // e and m, above 0
+
+    template <class V>
+    HWY_INLINE V radius(V v) const {
+        return root(v * v + fixed<V>(roundness * roundness));
+    }
+    template <class V>
+    HWY_INLINE V value(V v) const {
+        return fixed<V>(scale) * (radius(v) - fixed<V>(roundness));
+    }
+    template <class V>
+    HWY_INLINE V slope(V v) const {
+        return fixed<V>(scale) * v / radius(v);
+    }
+    template <class V>
+    HWY_INLINE V bend_up(V lo, V hi) const {
+        const V r = radius(greatest(greatest(lo, fixed<V>(0.0) - hi), fixed<V>(0.0)));
+        return fixed<V>(scale * roundness * roundness) / (r * r * r);
+    }
+    template <class V>
+    HWY_INLINE V bend_down(V, V) const {
+        return fixed<V>(0.0);
+    }
+    std::pair<double, double> range(double lo, double hi) const {
+        return {value(std::max({lo, -hi, 0.0})), value(std::max(std::abs(lo), std::abs(hi)))};
+    }
+    double steepest(double lo, double hi) const { return slope(std::max(std::abs(lo), std::abs(hi))); }
+};
+
+// 3 t^2 - 2 t^3 of t = v clamped to [0, 1]: 0, then 1. g'' = 6 - 12 t falls within, and is 0 outside.
+struct SmoothStep {
+    static constexpr bool kHasSpan = true;
+
+    template <class V>
+    HWY_INLINE V clamped(V v) const {
+        return least(greatest(v, fixed<V>(0.0)), fixed<V>(1.0));
+    }
+    template <class V>
+    HWY_INLINE V value(V v) const {
+        const V t = clamped(v);
+        return t * t * (fixed<V>(3.0) - fixed<V>(2.0) * t);
+    }
+    template <class V>
+    HWY_INLINE V slope(V v) const {
+        const V t = clamped(v);
+        return fixed<V>(6.0) * t * (fixed<V>(1.0) - t);
+    }
+    template <class V>
+    HWY_INLINE V bend_up(V lo, V hi) const {
+        const V zero = fixed<V>(0.0);
+        return pick(zero < hi, greatest(fixed<V>(6.0) - fixed<V>(12.0) * greatest(lo, zero), zero), zero);
+    }
+    template <class V>
+    HWY_INLINE V bend_down(V lo, V hi) const {
+        const V zero = fixed<V>(0.0), one = fixed<V>(1.0);
+        return pick(lo < one, greatest(fixed<V>(12.0) * least(hi, one) - fixed<V>(6.0), zero), zero);
+    }
+    template <class V>
+    HWY_INLINE Span<V> span(V lo, V hi) const {
+        return {value(lo), value(hi)};
+    }
+    std::pair<double, double> range(double lo, double hi) const { return {value(lo), value(hi)}; }
+    double steepest(double lo, double hi) const { return lo < 0.5 && hi > 0.5 ? 1.5 : std::max(slope(lo), slope(hi)); }
+};
+
+// v + strength step (3 f^2 - 2 f^3 - f), f = v / step - floor(v / step): rises with v. g'' = strength (6 - 12 f) /
+// step.
+struct TerraceCurve {
+    static constexpr bool kHasSpan = true;
+
+    double step, strength;  // in [0, 1]
+
+    template <class V>
+    HWY_INLINE V part(V v) const {
+        const V steps = v * fixed<V>(1.0 / step);
+        return steps - whole(steps);
+    }
+    // f is off by the roundings of v / step.
+    template <class V>
+    HWY_INLINE V value_unit(V v) const {
+        return fixed<V>(step) + size(v);
+    }
+    template <class V>
+    HWY_INLINE V slope_unit(V v) const {
+        return fixed<V>(1.0) + fixed<V>(12.0 / step) * size(v);
+    }
+    template <class V>
+    HWY_INLINE V value(V v) const {
+        const V f = part(v);
+        return v + fixed<V>(strength * step) * (f * (f * (fixed<V>(3.0) - fixed<V>(2.0) * f) - fixed<V>(1.0)));
+    }
+    template <class V>
+    HWY_INLINE V slope(V v) const {
+        const V f = part(v);
+        return fixed<V>(1.0) + fixed<V>(strength) * (fixed<V>(6.0) * f * (fixed<V>(1.0) - f) - fixed<V>(1.0));
+    }
+    // Largest just after a step, if there is one within or near, else at lo.
+    template <class V>
+    HWY_INLINE V bend_up(V lo, V hi) const {
+        const V at_lo = fixed<V>(1.0) - fixed<V>(2.0) * part(lo - margin(lo));
+        const V most = pick(crosses(lo, hi), fixed<V>(1.0), greatest(at_lo, fixed<V>(0.0)));
+        return fixed<V>(6.0 * strength / step) * most;
+    }
+    template <class V>
+    HWY_INLINE V bend_down(V lo, V hi) const {
+        const V at_hi = fixed<V>(2.0) * part(hi + margin(hi)) - fixed<V>(1.0);
+        const V most = pick(crosses(lo, hi), fixed<V>(1.0), greatest(at_hi, fixed<V>(0.0)));
+        return fixed<V>(6.0 * strength / step) * most;
+    }
+    template <class V>
+    HWY_INLINE Span<V> span(V lo, V hi) const {
+        return {value(lo), value(hi)};
+    }
+    std::pair<double, double> range(double lo, double hi) const { return {value(lo), value(hi)}; }
+    double steepest(double, double) const { return 1.0 + 0.5 * strength; }
+
+  private:
+    template <class V>
+    HWY_INLINE V margin(V v) const {
+        return fixed<V>(0x1p-20) * (size(v) + fixed<V>(step));
+    }
+    template <class V>
+    HWY_INLINE auto crosses(V lo, V hi) const {
+        const V per = fixed<V>(1.0 / step);
+        return whole((lo - margin(lo)) * per) < whole((hi + margin(hi)) * per);
+    }
+};
+
+// (1 + v)^2 / 4 of v in [-1, 1]: what multiplies finer octaves, 0 in the deepest places and 1 on the highest.
+struct LiftCurve {
+    template <class V>
+    HWY_INLINE V value(V v) const {
+        const V above = fixed<V>(0.5) + fixed<V>(0.5) * v;
+        return above * above;
+    }
+    template <class V>
+    HWY_INLINE V slope(V v) const {
+        return fixed<V>(0.5) + fixed<V>(0.5) * v;
+    }
+    template <class V>
+    HWY_INLINE V bend_up(V, V) const {
+        return fixed<V>(0.5);
     }
     template <class V>
     HWY_INLINE V bend_down(V, V) const {

@@ -19,6 +19,8 @@ class ReliefFrame {
     double frequency(std::size_t k) const { return part_->octaves[k].frequency; }
     double amplitude_from(std::size_t k) const { return part_->amplitude_from[k]; }
 
+    const PlanTurn* turn(std::size_t k) const { return part_->turns.empty() ? nullptr : &part_->turns[k]; }
+
     // The largest value of an octave's noise.
     double peak() const { return bounds().value; }
 

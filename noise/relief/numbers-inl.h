@@ -33,6 +33,7 @@ inline double least(double a, double b) { return std::min(a, b); }
 inline double greatest(double a, double b) { return std::max(a, b); }
 inline double root(double a) { return std::sqrt(a); }
 inline double size(double a) { return std::abs(a); }
+inline double whole(double a) { return std::floor(a); }
 inline double pick(bool condition, double yes, double no) { return condition ? yes : no; }
 
 }  // namespace strata::noise::HWY_NAMESPACE

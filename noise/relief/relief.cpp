@@ -11,6 +11,7 @@
 #include "noise/reference.h"
 #include "noise/relief/frame.h"
 #include "noise/relief/nodes/all.h"
+#include "noise/relief/pits.h"
 #include "noise/relief/stripe.h"
 
 namespace strata::noise {
@@ -42,7 +43,21 @@ class JetNumbers : public ReliefFrame {
     }
 
     Number octave(std::size_t k, const Domain& at) const {
-        const Octave& octave = part().octaves[k];
+        const PlanTurn* turn = ReliefFrame::turn(k);
+        return turn == nullptr ? octave_of(part().octaves[k], at) : octave_of(part().octaves[k], turned(at, *turn));
+    }
+    static Domain turned(const Domain& at, const PlanTurn& turn) {
+        Domain there = at;
+        there.at.x = turn.cosine * at.at.x + turn.sine * at.at.z;
+        there.at.z = turn.cosine * at.at.z - turn.sine * at.at.x;
+        for (int column = 0; column < 3; ++column) {
+            const glm::dvec3& of = at.jacobian[column];
+            there.jacobian[column].x = turn.cosine * of.x + turn.sine * of.z;
+            there.jacobian[column].z = turn.cosine * of.z - turn.sine * of.x;
+        }
+        return there;
+    }
+    Number octave_of(const Octave& octave, const Domain& at) const {
         if (is_planar()) {
             const auto p = octave_position<2>(octave, {at.at.x, at.at.z});
             const auto jet = reference_jet<2>(octave.key, split_position<2>(p));
@@ -57,6 +72,8 @@ class JetNumbers : public ReliefFrame {
 
     static Number begin_sum() { return {}; }
     static bool sees(Number&, std::size_t, const Domain&, double, double) { return true; }
+    static bool sees_cells(Number&, double, const Domain&, double, double) { return true; }
+    static bool sees_weighed(Number&, std::size_t, const Domain&, const Number&, double, double) { return true; }
     static void add(Number& sum, const Number& term) { sum = plus(sum, term); }
     static Number total(const Number& sum) { return sum; }
 
@@ -91,6 +108,19 @@ class JetNumbers : public ReliefFrame {
         return {r - c, (x.value * x.gradient + y.value * y.gradient) / r};
     }
     static Number part_of(const Number& whole, const Number& share) { return product(whole, share); }
+    static Number mixed(const Number& a, const Number& b, const Number& share) {
+        return plus(a, product(share, plus(b, scaled(a, -1.0))));
+    }
+    static Number highest(const Number& a, const Number& b, double softness) {
+        const double d = a.value - b.value, r = std::sqrt(d * d + softness * softness), to_a = 0.5 + 0.5 * d / r;
+        return {0.5 * (a.value + b.value + r), to_a * a.gradient + (1.0 - to_a) * b.gradient};
+    }
+
+    // per_x x + per_z z + offset; up to a whole number if that is all that matters.
+    static Number along(const Domain& at, double per_x, double per_z, double offset, bool repeats) {
+        const double value = at.at.x * per_x + at.at.z * per_z + offset;
+        return {repeats ? value - std::floor(value) : value, glm::dvec3(per_x, 0.0, per_z) * at.jacobian};
+    }
 
     Number fall_off(const Domain& at, double x, double z, double per_x, double per_z) const {
         const double u = (at.at.x - x) * per_x, v = (at.at.z - z) * per_z, one = 1.0 + u * u + v * v;
@@ -125,6 +155,23 @@ class JetNumbers : public ReliefFrame {
         return {c, s};
     }
 
+    Number pits(std::size_t k, const Domain& at, double worn) const {
+        const Octave& octave = part().octaves[k];
+        const auto p = split_position<2>(octave_position<2>(octave, {at.at.x, at.at.z}));
+        const HWY_NAMESPACE::HermiteCurve profile{kPitProfile};
+        Number sum;
+        for (unsigned corner = 0; corner < 4; ++corner) {
+            const bool right = (corner & 1) != 0, up = (corner & 2) != 0;
+            const Pit pit = pit_of(word_of(octave, p.cell, right, up), worn);
+            const double tx = p.fraction[0] - right - pit.x, tz = p.fraction[1] - up - pit.z;
+            const double q = (tx * tx + tz * tz) / (pit.radius * pit.radius), scale = pit.depth * pit.radius;
+            const glm::dvec3 there = 2.0 * octave.frequency / (pit.radius * pit.radius) * glm::dvec3(tx, 0.0, tz);
+            sum.value += scale * profile.value(q);
+            sum.gradient += scale * profile.slope(q) * (there * at.jacobian);
+        }
+        return sum;
+    }
+
     Number input(std::size_t i, const Domain& at) const { return of(parts_, part().inputs[i], dimensions_of(), at); }
 
     static Number of(std::span<const ReliefPart> parts, std::size_t index, int dimensions, const Domain& at) {
@@ -134,10 +181,12 @@ class JetNumbers : public ReliefFrame {
     }
 
   private:
+    static std::uint32_t word_of(const Octave& octave, const std::array<std::int64_t, 2>& cell, bool right, bool up) {
+        return plane_pair(cell[0], octave.key.axis[0])[right ? 1 : 0] ^
+               plane_pair(cell[1], octave.key.axis[1])[up ? 1 : 0];
+    }
     static double phase_of(const Octave& octave, const std::array<std::int64_t, 2>& cell, bool right, bool up) {
-        const std::uint32_t word = plane_pair(cell[0], octave.key.axis[0])[right ? 1 : 0] ^
-                                   plane_pair(cell[1], octave.key.axis[1])[up ? 1 : 0];
-        return static_cast<double>(corner_hash(word) >> kPhaseShift) * kPhaseUnit;
+        return static_cast<double>(corner_hash(word_of(octave, cell, right, up)) >> kPhaseShift) * kPhaseUnit;
     }
 
     int dimensions_of() const { return static_cast<int>(dimensions()); }
@@ -149,6 +198,15 @@ std::size_t place_of(std::span<const ReliefTerm> before, const std::string& name
     const auto found = std::ranges::find(before, name, &ReliefTerm::name);
     if (found == before.end()) throw std::invalid_argument("relief: no term before has the name '" + name + "'");
     return static_cast<std::size_t>(found - before.begin());
+}
+
+std::vector<PlanTurn> turns_of(double degrees, std::size_t octaves) {
+    std::vector<PlanTurn> turns;
+    for (std::size_t k = 0; k < octaves && degrees != 0.0; ++k) {
+        const double angle = degrees * (std::numbers::pi / 180.0) * static_cast<double>(k);
+        turns.push_back({std::cos(angle), std::sin(angle)});
+    }
+    return turns;
 }
 
 ReliefPart make_part(std::span<const ReliefTerm> terms, std::size_t index, int dimensions) {
@@ -165,6 +223,12 @@ ReliefPart make_part(std::span<const ReliefTerm> terms, std::size_t index, int d
             part.octaves = node.octaves(dimensions);
         },
         term.node);
+    std::visit(
+        [&](auto& node) {
+            if constexpr (requires { node.prepare(); }) node.prepare();
+            if constexpr (requires { node.turn_deg; }) part.turns = turns_of(node.turn_deg, part.octaves.size());
+        },
+        part.node);
     part.amplitude_from.resize(part.octaves.size());
     double sum = 0.0;
     for (std::size_t k = part.octaves.size(); k-- > 0;) part.amplitude_from[k] = sum += part.octaves[k].amplitude;

@@ -25,12 +25,18 @@ struct ReliefTerm {
     ReliefNode node{};
 };
 
+// A turn of the plan about y: x' = cosine x + sine z, z' = cosine z - sine x.
+struct PlanTurn {
+    double cosine, sine;
+};
+
 // A term made ready: its inputs by their place in the list.
 struct ReliefPart {
     ReliefNode node;
     std::vector<std::size_t> inputs;
     std::vector<Octave> octaves;
     std::vector<double> amplitude_from;  // the sum of the amplitudes of octave k and all after it
+    std::vector<PlanTurn> turns{};       // of octave k's lattice against the plan; empty: none is turned
 };
 
 struct ReliefJet {

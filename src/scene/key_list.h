@@ -27,6 +27,10 @@ class KeyList {
                 std::string_view meaning) {
         add(std::move(name), &field, {min, max}, unit, meaning);
     }
+    void numbers(std::string name, std::vector<double>& field, double min, double max, std::string_view unit,
+                 std::string_view meaning) {
+        add(std::move(name), &field, {min, max}, unit, meaning);
+    }
     void seed(std::string name, std::uint64_t& field, std::string_view meaning) {
         add(std::move(name), &field, {}, {}, meaning);
     }
@@ -46,6 +50,10 @@ class KeyList {
         number("amplitude", p.amplitude, 0.0, 1e6, "surface units", "amplitude of octave 0");
         number("frequency", p.frequency, 1e-9, 1e9, "lattice cells a surface unit", "frequency of octave 0");
         seed("seed", p.seed, "chooses the noise");
+    }
+    void turn(double& degrees) {
+        number("turn_deg", degrees, -360.0, 360.0, "degrees",
+               "how far each octave's lattice is turned against the last; 36.87 hides lattices");
     }
 
     void add(Key key) { keys_.push_back(std::move(key)); }

@@ -57,6 +57,12 @@ std::string names_text(const std::vector<std::string>& names) {
     return "[" + text + "]";
 }
 
+std::string numbers_text(const std::vector<double>& numbers) {
+    std::string text;
+    for (const double number : numbers) text += (text.empty() ? "" : ", ") + number_text(number);
+    return "[" + text + "]";
+}
+
 // Control characters as TOML escapes them in strings.
 std::string without_controls(std::string_view text) {
     std::string result;
@@ -124,6 +130,7 @@ std::string value_text(const Key& key) {
                                [](const std::vector<CameraKey>* field) { return camera_keys_text(*field); },
                                [](const std::string* field) { return quoted(*field); },
                                [](const std::vector<std::string>* field) { return names_text(*field); },
+                               [](const std::vector<double>* field) { return numbers_text(*field); },
                                [](const Choice& choice) { return quoted(choice.names[choice.get()]); },
                                [](const auto* integer) { return fmt::format("{}", *integer); }},
                       key.field);
@@ -138,6 +145,7 @@ std::string allowed_text(const Key& key) {
                  [&](const glm::dvec3*) { return vector_text(key); },
                  [](const std::string*) { return std::string("text in quotes"); },
                  [](const std::vector<std::string>*) { return std::string("names in quotes, between [ and ]"); },
+                 [&](const std::vector<double>*) { return fmt::format("numbers {}", range_text(key)); },
                  [](const std::vector<CameraKey>*) {
                      return fmt::format(
                          "up to {} tables of time_s (s, increasing by {:g} or more) and any of position, "
@@ -168,6 +176,11 @@ std::optional<std::string> field_problem(const Key& key) {
         if ((*entries)->size() > kMostCameraKeys) return fmt::format("{} entries, too many", (*entries)->size());
         for (std::size_t i = 0; i < (*entries)->size(); ++i) {
             if (auto problem = time_problem(**entries, i)) return fmt::format("time_s of entry {} is {}", i, *problem);
+        }
+    }
+    if (const auto* numbers = std::get_if<std::vector<double>*>(&key.field)) {
+        for (const double number : **numbers) {
+            if (auto problem = number_problem(key, number)) return problem;
         }
     }
     if (const auto* vector = std::get_if<glm::dvec3*>(&key.field)) {

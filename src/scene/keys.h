@@ -25,7 +25,7 @@ struct Choice {
 
 // The field of a scene that a key stands for.
 using Field = std::variant<bool*, int*, std::uint64_t*, double*, Rate*, glm::dvec3*, std::string*, Choice,
-                           std::vector<CameraKey>*, std::vector<std::string>*>;
+                           std::vector<CameraKey>*, std::vector<std::string>*, std::vector<double>*>;
 
 // Closed, finite. Of a vector: of each component.
 struct Range {

@@ -117,6 +117,13 @@ std::string relief_problem(std::span<const ReliefTerm> terms, std::size_t i) {
         return fmt::format("relief[{}].name: there already (\"{}\"), allowed: a name that no other term has", i,
                            term.name);
     }
+    const std::string problem = std::visit(
+        [](const auto& node) -> std::string {
+            if constexpr (requires { node.problem(); }) return node.problem();
+            return {};
+        },
+        term.node);
+    if (!problem.empty()) return fmt::format("relief.{}: {}", term.name, problem);
     return inputs_problem(terms, i);
 }
 

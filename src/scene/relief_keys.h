@@ -28,7 +28,8 @@ noise::ReliefTerm default_relief_term(std::size_t type);
 // The keys of a term, as section `relief.NAME`. The fields point into the term.
 Section describe_relief_term(noise::ReliefTerm& term);
 
-// What is wrong with term i seen from those before it: its name, or what it is `of`. Empty: nothing.
+// What is wrong with term i seen from those before it: its name, keys that do not fit one another, or what it is `of`.
+// Empty: nothing.
 std::string relief_problem(std::span<const noise::ReliefTerm> terms, std::size_t i);
 
 }  // namespace strata::scene

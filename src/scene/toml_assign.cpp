@@ -149,6 +149,17 @@ struct Assign {
         return std::nullopt;
     }
 
+    MaybeFault operator()(std::vector<double>* field) const {
+        const auto* array = node.as_array();
+        if (!array) return wrong_type(key, node);
+        std::vector<double> numbers;
+        for (const toml::node& number : *array) {
+            if (auto fault = assign_number(numbers.emplace_back(), number)) return fault;
+        }
+        *field = std::move(numbers);
+        return std::nullopt;
+    }
+
     MaybeFault operator()(const Choice& choice) const {
         const auto* value = node.as_string();
         if (!value) return wrong_type(key, node);

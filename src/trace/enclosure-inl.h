@@ -36,6 +36,7 @@ HWY_INLINE Lanes least(Lanes a, Lanes b) { return {hn::Min(a.v, b.v)}; }
 HWY_INLINE Lanes greatest(Lanes a, Lanes b) { return {hn::Max(a.v, b.v)}; }
 HWY_INLINE Lanes root(Lanes a) { return {hn::Sqrt(a.v)}; }
 HWY_INLINE Lanes size(Lanes a) { return {hn::Abs(a.v)}; }
+HWY_INLINE Lanes whole(Lanes a) { return {hn::Floor(a.v)}; }
 HWY_INLINE Lanes pick(hn::Mask<FloatTag> condition, Lanes yes, Lanes no) {
     return {hn::IfThenElse(condition, yes.v, no.v)};
 }

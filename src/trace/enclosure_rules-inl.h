@@ -82,10 +82,70 @@ class EnclosureRules {
                       bound(choose(falls, a.down, a.up), curve.bend_up(low, high).v),
                       bound(choose(falls, a.up, a.down), curve.bend_down(low, high).v)};
         // Of the value; and of the slope, which takes p with it.
-        const FloatVec off = hn::MulAdd(set(kCurveError), hn::Abs(value), set(kCurveError));
-        const FloatVec tilt = hn::MulAdd(set(kCurveError), steep, set(kCurveError));
+        FloatVec off = hn::MulAdd(set(kCurveError), hn::Abs(value), set(kCurveError));
+        FloatVec tilt = hn::MulAdd(set(kCurveError), steep, set(kCurveError));
+        if constexpr (requires { curve.value_unit(v); }) {
+            off = hn::MulAdd(set(kCurveError), curve.value_unit(v).v, off);
+            tilt = hn::MulAdd(set(kCurveError), curve.slope_unit(v).v, tilt);
+        }
         widen(result, hn::MulAdd(tilt, wide.e0, off), hn::Mul(tilt, k));
+        if constexpr (requires { Curve::kHasSpan; }) {
+            const auto span = curve.span(low, high);
+            result = limited(result, hn::Sub(span.low.v, off), hn::Add(span.high.v, off));
+        }
         return finished(result);
+    }
+
+    // (1 - s) a + s b for a share s in [0, 1]: with changes p, q and t of a, b and s it changes by
+    // (1 - s) p + s q + (b - a) t + (q - p) t.
+    HWY_INLINE Number mixed(const Number& a, const Number& b, const Number& share) const {
+        const FloatVec zero = hn::Zero(FloatTag()), one = set(1.0f);
+        const FloatVec s = hn::Clamp(share.value, zero, one), rest = hn::Sub(one, s);
+        const Number apart = plus(b, scaled(a, -1.0));
+        const Slack wide_d = larger(apart.up, apart.down), wide_s = larger(share.up, share.down), none = no_slack();
+        const FloatVec k_d = swing(apart, wide_d), k_s = swing(share, wide_s);
+        Number result{hn::MulAdd(s, apart.value, a.value), {zero, zero, zero}, none, none};
+        result = turned(turned(turned(result, a, rest), b, s), share, apart.value);
+        const Slack cross = {hn::Mul(wide_d.e0, wide_s.e0), hn::MulAdd(wide_d.e0, k_s, hn::Mul(wide_s.e0, k_d)),
+                             hn::Mul(k_d, k_s)};
+        result.up = HWY_NAMESPACE::plus(result.up, cross);
+        result.down = HWY_NAMESPACE::plus(result.down, cross);
+        const FloatVec sizes = hn::Add(hn::Abs(a.value), hn::Abs(b.value));
+        const FloatVec swings = hn::Add(swing(a, larger(a.up, a.down)), swing(b, larger(b.up, b.down)));
+        widen(result, hn::Mul(set(kOperation), sizes), hn::Mul(set(kOperation), hn::MulAdd(sizes, k_s, swings)));
+        return finished(result);
+    }
+
+    // (a + b + R) / 2 with R^2 = d^2 + softness^2, d = a - b. By d its second derivative is softness^2 / (2 R^3) >= 0,
+    // largest where |d| is least.
+    HWY_INLINE Number highest(const Number& a, const Number& b, double softness) const {
+        const FloatVec zero = hn::Zero(FloatTag()), half = set(0.5f), radius = points_.radius,
+                       soft2 = set(softness * softness);
+        const Number d = plus(a, scaled(b, -1.0));
+        const Slack wide = larger(d.up, d.down), none = no_slack();
+        const FloatVec k = swing(d, wide), reach = hn::MulAdd(length(d.gradient), radius, wide.at(radius));
+        const FloatVec r = hn::Sqrt(hn::MulAdd(d.value, d.value, soft2));
+        const FloatVec nearest = hn::Max(hn::Sub(hn::Mul(hn::Abs(d.value), set(0.9999f)), reach), zero);
+        const FloatVec least2 = hn::MulAdd(nearest, nearest, soft2);
+        const FloatVec half_bend = hn::Div(hn::Mul(set(0.2505f), soft2), hn::Mul(least2, hn::Sqrt(least2)));
+        const FloatVec to_a = hn::MulAdd(half, hn::Div(d.value, r), half), to_b = hn::Sub(set(1.0f), to_a);
+        Number result{hn::Mul(half, hn::Add(hn::Add(a.value, b.value), r)), {zero, zero, zero}, none, none};
+        result = turned(turned(result, a, to_a), b, to_b);
+        const Slack square = {hn::Mul(wide.e0, wide.e0), hn::Mul(set(2.0f), hn::Mul(wide.e0, k)), hn::Mul(k, k)};
+        // The seam adds no more than it does in all: |change of R / 2 - its tangent| <= |change of d|.
+        const Slack seam = times(square, half_bend), linear = {wide.e0, k, zero};
+        result.up = HWY_NAMESPACE::plus(result.up, choose(hn::Lt(seam.at(radius), linear.at(radius)), seam, linear));
+        const FloatVec sizes = hn::Add(hn::Add(hn::Abs(a.value), hn::Abs(b.value)), r);
+        const FloatVec swings = hn::Add(swing(a, larger(a.up, a.down)), swing(b, larger(b.up, b.down)));
+        widen(result, hn::Mul(set(kOperation), sizes),
+              hn::Mul(set(kCurveError), hn::Add(swings, hn::Mul(wide.e0, hn::Div(set(1.0f), r)))));
+        return finished(result);
+    }
+
+    // By a factor of its own in every lane, no less than 0.
+    HWY_INLINE Number scaled_by(const Number& a, FloatVec by) const {
+        return finished(
+            {hn::Mul(a.value, by), HWY_NAMESPACE::scaled(a.gradient, by), times(a.up, by), times(a.down, by)});
     }
 
     // x / R and y / R, R = sqrt(x^2 + y^2 + c^2).

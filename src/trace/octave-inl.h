@@ -8,6 +8,7 @@
 
 #include <type_traits>
 
+#include "noise/relief/relief.h"
 #include "src/trace/field.h"
 #include "src/trace/trace_plan.h"
 #include "src/trace/wide-inl.h"
@@ -73,6 +74,22 @@ template <bool kPlanar>
 HWY_INLINE OctaveSample sample_octave(const TraceOctave& octave, const WidePoint& at, double reach) {
     if (HWY_LIKELY(octave.frequency * reach + 2.0 < kNearCells)) return sample_octave<kPlanar, true>(octave, at);
     return sample_octave<kPlanar, false>(octave, at);
+}
+
+// The octave on a lattice that is turned about y, with its derivatives turned back.
+template <bool kPlanar>
+HWY_INLINE OctaveSample sample_turned(const TraceOctave& octave, const noise::PlanTurn& turn, const WidePoint& at,
+                                      double reach) {
+    const DoubleVec c = hn::Set(DoubleTag(), turn.cosine), s = hn::Set(DoubleTag(), turn.sine);
+    const auto along = [&](auto x, auto z) HWY_ATTR { return hn::MulAdd(c, x, hn::Mul(s, z)); };
+    const auto across = [&](auto x, auto z) HWY_ATTR { return hn::NegMulAdd(s, x, hn::Mul(c, z)); };
+    const WidePoint there{each_part(along, at.x, at.z), at.y, each_part(across, at.x, at.z)};
+    const OctaveSample n = sample_octave<kPlanar>(octave, there, 1.4143 * reach);
+    const FloatTag d;
+    const FloatVec cosine = hn::Set(d, static_cast<float>(turn.cosine));
+    const FloatVec sine = hn::Set(d, static_cast<float>(turn.sine));
+    return {n.value, hn::MulSub(cosine, n.dx, hn::Mul(sine, n.dz)), n.dy,
+            hn::MulAdd(sine, n.dx, hn::Mul(cosine, n.dz))};
 }
 
 }  // namespace strata::trace::HWY_NAMESPACE

@@ -16,6 +16,7 @@
 #include "noise/relief/nodes/all.h"
 #include "noise/relief/stripe.h"
 #include "src/trace/enclosure_rules-inl.h"
+#include "src/trace/pits-inl.h"
 #include "src/trace/relief_enclosure-inl.h"
 #include "src/trace/stripe-inl.h"
 
@@ -57,7 +58,9 @@ class LaneNumbers : public noise::ReliefFrame, public EnclosureRules {
     // Taylor's formula for noise: n(q + E) <= n + grad n . E + H |E|^2 / 2 in lattice units, E = w (J D + e).
     HWY_INLINE Number octave(std::size_t k, const Domain& at) {
         const TraceOctave& octave = plan_.octaves[index_][k];
-        const OctaveSample n = sample_octave<kPlanar>(octave, at.at, at.reach);
+        const noise::PlanTurn* turn = ReliefFrame::turn(k);
+        const OctaveSample n = turn == nullptr ? sample_octave<kPlanar>(octave, at.at, at.reach)
+                                               : sample_turned<kPlanar>(octave, *turn, at.at, at.reach);
         count();
         const FloatVec frequency = set(octave.frequency);
         const FloatPoint there = HWY_NAMESPACE::scaled({n.dx, n.dy, n.dz}, frequency);
@@ -66,6 +69,10 @@ class LaneNumbers : public noise::ReliefFrame, public EnclosureRules {
         const FloatVec half_bend = set(0.5 * bounds().second * wave * wave * kRoundUp);
         Slack slack = {set(errors.value), hn::Mul(set(errors.slope * wave), at.stretch),
                        hn::Mul(half_bend, hn::Mul(at.stretch, at.stretch))};
+        // The terms of a gradient that is turned back may cancel.
+        if (turn != nullptr) {
+            slack.e1 = hn::MulAdd(set(2.0 * kOperation * bounds().gradient * wave), at.stretch, slack.e1);
+        }
         if (at.is_plain) return finished({n.value, there, slack, slack});
         slack = HWY_NAMESPACE::plus(slack, times(at.slack, set(bounds().gradient * wave * kRoundUp)));
         slack.e0 = hn::MulAdd(half_bend, hn::Mul(at.slack.e0, at.slack.e0), slack.e0);
@@ -92,16 +99,22 @@ class LaneNumbers : public noise::ReliefFrame, public EnclosureRules {
     // Whether octave k is to be evaluated in any lane. Where it is too fine it and all after it stay between low and
     // high, low <= 0 <= high.
     HWY_INLINE bool sees(Running& running, std::size_t k, const Domain& at, double low, double high) {
-        const FloatTag d;
-        const FloatVec wave = set(plan_.octaves[index_][k].wave);
-        const FloatVec ball = hn::MulAdd(at.stretch, points_.radius, at.slack.e0);
-        const auto fits = hn::Or(points_.whole, hn::Le(hn::Mul(wave, ball), set(kReliefCellsAhead)));
-        const auto closes = hn::AndNot(fits, running.open);
-        running.above = hn::Add(running.above, hn::IfThenElseZero(closes, set(high * kRoundUp)));
-        running.below = hn::Add(running.below, hn::IfThenElseZero(closes, set(-low * kRoundUp)));
-        running.open = hn::And(running.open, fits);
-        counted_ = running.open;
-        return !hn::AllFalse(d, running.open);
+        return sees_cells(running, plan_.octaves[index_][k].wave, at, low, high);
+    }
+
+    // The same of a term with so many cells a unit.
+    HWY_INLINE bool sees_cells(Running& running, double cells, const Domain& at, double low, double high) {
+        return sees_within(running, cells, at, set(-low * kRoundUp), set(high * kRoundUp));
+    }
+
+    // The same where octave k and all after it stay between 0 and both `most` and `per_weight` times a weight.
+    HWY_INLINE bool sees_weighed(Running& running, std::size_t k, const Domain& at, const Number& weight, double most,
+                                 double per_weight) {
+        const FloatVec radius = points_.radius;
+        const FloatVec top = hn::MulAdd(length(weight.gradient), radius, hn::Add(weight.value, weight.up.at(radius)));
+        const FloatVec of_weight = hn::Mul(hn::Max(top, hn::Zero(FloatTag())), set(per_weight * (1.0 + 0x1p-14)));
+        return sees_within(running, plan_.octaves[index_][k].wave, at, hn::Zero(FloatTag()),
+                           hn::Min(of_weight, set(most * kRoundUp)));
     }
 
     HWY_INLINE void add(Running& running, const Number& term) const {
@@ -173,6 +186,54 @@ class LaneNumbers : public noise::ReliefFrame, public EnclosureRules {
         return finished(result);
     }
 
+    // per_x x + per_z z + offset; up to a whole number if that is all that matters.
+    HWY_INLINE Number along(const Domain& at, double per_x, double per_z, double offset, bool repeats) const {
+        Wide place = mul_add(at.at.x, per_x, offset);
+        place = each_part([&](auto z, auto rest) HWY_ATTR { return hn::MulAdd(z, hn::Set(DoubleTag(), per_z), rest); },
+                          at.at.z, place);
+        if (repeats) place = sub(place, floor(place));
+        return finished(at_place(at, to_float(place), set(per_x), set(per_z), set(std::hypot(per_x, per_z) * kRoundUp),
+                                 hn::Zero(FloatTag())));
+    }
+
+    HWY_INLINE Number pits(std::size_t k, const Domain& at, double worn) {
+        const TraceOctave& octave = plan_.octaves[index_][k];
+        count();
+        const Corners corners = corners_of(octave, at.at, at.reach);
+        const FloatVec wave = set(octave.wave * kRoundUp), radius = points_.radius;
+        const FloatVec ball = hn::Mul(wave, hn::MulAdd(at.stretch, radius, at.slack.at(radius)));
+        const noise::HWY_NAMESPACE::HermiteCurve profile{noise::kPitProfile};
+        Number sum = constant(0.0);
+        for (unsigned corner = 0; corner < 4; ++corner) {
+            const PitSample pit = sample_pit(corners, corner, worn);
+            const FloatVec away = hn::Sqrt(hn::MulAdd(pit.x, pit.x, hn::Mul(pit.z, pit.z)));
+            const auto reached = hn::Lt(hn::Sub(away, ball), hn::Mul(set(noise::kPitReach * 1.001), pit.radius));
+            if (hn::AllFalse(FloatTag(), hn::And(reached, counted_))) continue;
+            const FloatVec inverse = hn::Div(set(1.0f), pit.radius), inverse2 = hn::Mul(inverse, inverse);
+            const FloatVec twice = hn::Mul(set(2.0 * octave.frequency), inverse2);
+            const FloatVec steepest = hn::Mul(hn::Mul(set(2.001f), wave), hn::Mul(hn::Add(away, ball), inverse2));
+            Number q = at_place(at, hn::Mul(hn::Mul(away, away), inverse2), hn::Mul(twice, pit.x),
+                                hn::Mul(twice, pit.z), steepest, hn::Mul(hn::Mul(wave, wave), inverse2));
+            if (at.is_plain) q.down.e2 = hn::Zero(FloatTag());  // q is quadratic: it lies above its tangent
+            // Places are off by a few 2^-24 cells: q by as much times its slope there, no more than 4 / radius.
+            widen(q, hn::Mul(set(0x1p-19f), inverse),
+                  hn::Mul(set(0x1p-20f), hn::Add(steepest, hn::Mul(wave, inverse2))));
+            sum = plus(sum, scaled_by(curved(profile, finished(q)), hn::Mul(pit.radius, pit.depth)));
+        }
+        // In larger balls there may be others: what holds of all of them.
+        constexpr noise::PitBounds of;
+        const FloatVec zero = hn::Zero(FloatTag());
+        const auto is_large = hn::Gt(ball, set(noise::kPitMargin * 0.999));
+        const auto wider = [&](const Slack& own, double bend) HWY_ATTR {
+            const FloatVec half_bend = hn::Mul(hn::Mul(wave, wave), set(2.0 * bend / noise::kNarrowest * kRoundUp));
+            const Number any = at_place(at, sum.value, zero, zero, hn::Mul(wave, set(4.0 * of.slope)), half_bend);
+            return choose(is_large, HWY_NAMESPACE::plus(own, any.up), own);
+        };
+        sum.up = wider(sum.up, of.bend_up);
+        sum.down = wider(sum.down, of.bend_down);
+        return finished(sum);
+    }
+
     HWY_INLINE Pair stripe(std::size_t k, const Domain& at, const Number& dx, const Number& dz, double bands) {
         const TraceOctave& octave = plan_.octaves[index_][k];
         const noise::StripeBounds of(bands);
@@ -220,12 +281,32 @@ class LaneNumbers : public noise::ReliefFrame, public EnclosureRules {
                                   const ReliefPoints& points) {
         LaneNumbers numbers(plan, index, points);
         Number result = constant(0.0);
-        std::visit([&](const auto& node) HWY_ATTR { result = noise::HWY_NAMESPACE::relief_of(node, numbers, at); },
-                   plan.relief->parts()[index].node);
+        std::visit(
+            [&](const auto& node) HWY_ATTR {
+                // Space has no relief that is one of height fields alone.
+                if constexpr (kPlanar || !requires { node.kPlaneOnly; }) {
+                    result = noise::HWY_NAMESPACE::relief_of(node, numbers, at);
+                }
+            },
+            plan.relief->parts()[index].node);
         return result;
     }
 
   private:
+    // below and above: how far what is left out may go.
+    HWY_INLINE bool sees_within(Running& running, double cells, const Domain& at, FloatVec below, FloatVec above) {
+        const FloatTag d;
+        const FloatVec wave = set(cells);
+        const FloatVec ball = hn::MulAdd(at.stretch, points_.radius, at.slack.e0);
+        const auto fits = hn::Or(points_.whole, hn::Le(hn::Mul(wave, ball), set(kReliefCellsAhead)));
+        const auto closes = hn::AndNot(fits, running.open);
+        running.above = hn::Add(running.above, hn::IfThenElseZero(closes, above));
+        running.below = hn::Add(running.below, hn::IfThenElseZero(closes, below));
+        running.open = hn::And(running.open, fits);
+        counted_ = running.open;
+        return !hn::AllFalse(d, running.open);
+    }
+
     // A function of the place, with the slopes by x and z at it, none steeper than `steepest`, and half_bend half the
     // bound of its second derivative.
     HWY_INLINE Number at_place(const Domain& at, FloatVec value, FloatVec by_x, FloatVec by_z, FloatVec steepest,

@@ -254,8 +254,66 @@ name = "all"
 type = "sum"
 of = ["carved", "rough"]
 )";
+    const std::string shapes = R"([[relief]]
+name = "hills"
+type = "hybrid"
+octaves = 3
+turn_deg = 30.0
+[[relief]]
+name = "cushions"
+type = "billow"
+octaves = 3
+amplitude = 0.4
+[[relief]]
+name = "stepped"
+type = "terraces"
+of = ["hills"]
+[[relief]]
+name = "cliffs"
+type = "curve"
+of = ["stepped"]
+[[relief]]
+name = "higher"
+type = "highest"
+of = ["cliffs", "cushions"]
+[[relief]]
+name = "mixed"
+type = "blend"
+of = ["higher", "hills", "cushions"]
+from = 0.1
+to = 0.2
+[[relief]]
+name = "cut"
+type = "lowest"
+of = ["mixed", "hills"]
+[[relief]]
+name = "weighed"
+type = "product"
+of = ["cut", "cushions"]
+)";
+    const std::string places = shapes + R"([[relief]]
+name = "dunes"
+type = "dunes"
+[[relief]]
+name = "craters"
+type = "craters"
+octaves = 3
+[[relief]]
+name = "far"
+type = "ramp"
+height = 0.5
+[[relief]]
+name = "all"
+type = "sum"
+of = ["weighed", "dunes", "craters", "far"]
+)";
     const Keys above{"camera.position=[0,2.5,0]", "sampling.N=1"};
     return {
+        {.name = "relief_shapes_in_space",
+         .keys = kHyperterrain + Keys{"camera.position=[0.3,2.5,0.1]", "sampling.N=1"},
+         .crop = film::Rect{12, 8, 22, 13},
+         .relief = shapes},
+        {.name = "relief_places", .keys = kTerrain + above, .crop = film::Rect{12, 8, 22, 13}, .relief = places},
         {.name = "relief_ridged_warp", .keys = kTerrain + above, .relief = crests},
         {.name = "relief_landform", .keys = kTerrain + above, .crop = film::Rect{12, 8, 22, 13}, .relief = landform},
         {.name = "relief_in_space",

@@ -10,6 +10,8 @@
 #include <hwy/highway.h>
 
 #include "noise/relief/curves-inl.h"
+#include "noise/relief/hermite-inl.h"
+#include "noise/relief/pits.h"
 #include "noise/relief/stripe.h"
 
 namespace {
@@ -26,7 +28,24 @@ std::vector<std::vector<ReliefTerm>> general_reliefs() {
     even.feedback = 0.0;
     Warp warp;
     warp.parameters.octaves = 2;
-    return {{{"a", {}, Fbm{}}},
+    Billow billow, cushions;
+    billow.roundness = 0.02;
+    cushions.feedback = 1.5;
+    Hybrid hybrid;
+    hybrid.turn_deg = 36.87;
+    const ReliefTerm hills{"a", {}, Fbm{}}, peaks{"b", {}, ridged};
+    return {{{"a", {}, billow}},
+            {{"a", {}, cushions}},
+            {{"a", {}, hybrid}},
+            {hills, {"c", {"a"}, Curve{}}},
+            {hills, {"c", {"a"}, Curve{{-0.3, -0.1, 0.0, 0.2}, {0.2, -0.2, 0.1, 0.1}}}},
+            {hills, {"c", {"a"}, Terraces{}}},
+            {hills, peaks, {"c", {"a", "b"}, Product{}}},
+            {hills, peaks, {"c", {"a", "b"}, Blend{0.2, 0.5}}},
+            {hills, peaks, {"c", {"b", "a", "a"}, Blend{0.1, -0.1}}},
+            {hills, peaks, {"c", {"a", "b"}, Highest{}}},
+            {hills, peaks, {"c", {"a", "b"}, Lowest{}}},
+            {{"a", {}, Fbm{}}},
             {{"a", {}, ridged}},
             {{"a", {}, sharp}},
             {{"a", {}, even}},
@@ -40,7 +59,14 @@ std::vector<std::vector<ReliefTerm>> landforms() {
     Ridged ridged;
     ridged.parameters.octaves = 2;
     ridged.roundness = 0.2;
-    return {{{"a", {}, Fbm{}}, {"b", {"a"}, Envelope{.x = 3.0, .lift = 0.4}}},
+    Craters craters;
+    craters.parameters.octaves = 2;
+    craters.worn = 1.0;
+    return {{{"a", {}, Ramp{.azimuth_deg = 30.0}}},
+            {{"a", {}, Envelope{.x_size = 1e6, .lift = -1.0}}},
+            {{"a", {}, Dunes{}}},
+            {{"a", {}, craters}},
+            {{"a", {}, Fbm{}}, {"b", {"a"}, Envelope{.x = 3.0, .lift = 0.4}}},
             {{"a", {}, Fbm{}}, {"b", {"a"}, Fill{}}},
             {{"a", {}, ridged}, {"b", {"a"}, one}},
             {{"a", {}, ridged}, {"b", {"a"}, Warp{}}, {"c", {"b"}, Gullies{}}}};
@@ -115,6 +141,10 @@ TEST_CASE("a curve's value, slope and bends stay within its bounds on any interv
             REQUIRE(curve.value(v) >= least_value - 1e-12);
             REQUIRE(curve.value(v) <= most_value + 1e-12);
             REQUIRE(std::abs(curve.slope(v)) <= curve.steepest(lo, hi) + 1e-12);
+            if constexpr (requires { curve.span(lo, hi); }) {
+                REQUIRE(curve.value(v) >= curve.span(lo, hi).low - 1e-12);
+                REQUIRE(curve.value(v) <= curve.span(lo, hi).high + 1e-12);
+            }
             if (hi - lo < 3 * h) continue;
             const double at = std::clamp(v, lo + h, hi - h);
             const double second = (curve.slope(at + h) - curve.slope(at - h)) / (2 * h);
@@ -130,6 +160,44 @@ TEST_CASE("a curve's value, slope and bends stay within its bounds on any interv
     check(SoftClip{}, 0.0, 4.0);
     check(FillCurve{0.2, 0.1}, -2.0, 2.0);
     check(FillCurve{-1.0, 0.01}, -2.0, 2.0);
+    for (const double roundness : {0.02, 0.3}) check(BillowCurve{roundness, 1.2}, -1.0, 1.0);
+    check(LiftCurve{}, -1.0, 1.0);
+    check(SmoothStep{}, -0.5, 1.5);
+    check(TerraceCurve{0.25, 0.8}, -1.0, 1.0);
+    check(HermiteCurve{kPitProfile}, -0.1, 4.0);
+    for (const auto& [from, to] : {std::pair{std::vector{-0.5, 0.0, 0.1, 0.5}, std::vector{-0.3, 0.0, 0.4, 0.6}},
+                                   std::pair{std::vector{-0.5, 0.3, 0.4}, std::vector{0.3, 0.5, -0.4}}}) {
+        Curve curve{from, to};
+        curve.prepare();
+        check(HermiteCurve{curve.table}, -1.0, 1.0);
+    }
+    for (const double lee : {0.2, 0.5}) {
+        const HermiteTable profile = dune_profile(lee, 0.02);
+        check(PeriodicCurve{{profile}}, -3.0, 3.0);
+    }
+}
+
+TEST_CASE("a crater's profile stays within its bounds, and attains them") {
+    using strata::noise::HWY_NAMESPACE::HermiteCurve;
+    constexpr PitBounds of;
+    const HermiteCurve g{kPitProfile};
+    double low = 0.0, high = 0.0, slope = 0.0, up = 0.0, down = 0.0;
+    for (double q = 1e-4; q < kPitReach * kPitReach + 0.1; q += 1e-4) {
+        const double first = 2.0 * g.slope(q), h = 1e-6, second = (g.slope(q + h) - g.slope(q - h)) / (2.0 * h);
+        low = std::min(low, g.value(q));
+        high = std::max(high, g.value(q));
+        slope = std::max(slope, std::sqrt(q) * std::abs(first));
+        up = std::max({up, first, first + 4.0 * q * second});
+        down = std::max({down, -first, -first - 4.0 * q * second});
+    }
+    for (const auto& [found, bound] :
+         {std::pair{-low, -of.low}, {high, of.high}, {slope, of.slope}, {up, of.bend_up}, {down, of.bend_down}}) {
+        CHECK(found <= bound);
+        CHECK(found > 0.98 * bound);
+    }
+    CHECK(std::abs(g.value(kPitReach * kPitReach)) < 1e-12);
+    CHECK(g.value(kPitReach * kPitReach + 0.01) == 0.0);
+    CHECK(kPitReach * kWidest + kPitMargin <= 0.75);
 }
 
 TEST_CASE("no second derivative of a direction exceeds its bound") {

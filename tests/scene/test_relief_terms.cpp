@@ -81,6 +81,38 @@ TEST_CASE("a term's keys are set by its name") {
     CHECK_THROWS_AS(apply_override(scene, "relief.nothing.octaves=7", ""), SceneError);
 }
 
+TEST_CASE("a height curve's points are read, set and printed, and refused where they are no curve") {
+    const std::string text = R"(image = "surface"
+[[relief]]
+name = "hills"
+type = "fbm"
+[[relief]]
+name = "cliffs"
+type = "curve"
+of = ["hills"]
+from = [-1, 0.0, 0.5]
+to = [0.0, 0.25, 2]
+)";
+    Scene scene = read_scene(text, "file");
+    const auto& curve = std::get<strata::noise::Curve>(scene.surface.relief[1].node);
+    CHECK(curve.from == std::vector{-1.0, 0.0, 0.5});
+    CHECK(curve.to == std::vector{0.0, 0.25, 2.0});
+    CHECK_NOTHROW(validate(scene, ""));
+    CHECK(print_scene(scene, PrintedKeys::all).find("from = [-1.0, 0.0, 0.5]") != std::string::npos);
+    apply_override(scene, "relief.cliffs.to=[3, 2, 1]", "");
+    CHECK(curve.to == std::vector{3.0, 2.0, 1.0});
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {with(text, "[0.0, 0.25, 2]", "[0.0, 0.25]"), "relief.cliffs: from and to differ in number"},
+        {with(text, "[-1, 0.0, 0.5]", "[-1, 0.0, 0.0]"), "relief.cliffs: from: not increasing"},
+        {with(with(text, "[-1, 0.0, 0.5]", "[1]"), "[0.0, 0.25, 2]", "[1]"), "relief.cliffs: from: 2 to 16 numbers"},
+        {with(text, "[-1, 0.0, 0.5]", "[-1, \"a\", 0.5]"), "file:9:13: relief.cliffs.from: wrong type"},
+        {with(text, "[-1, 0.0, 0.5]", "[-1, 0.0, 1e9]"), "file:9:18: relief.cliffs.from: out of range"},
+        {with(text, "[-1, 0.0, 0.5]", "3"), "file:9:8: relief.cliffs.from: wrong type"},
+    };
+    for (const auto& [bad, expected] : cases)
+        CHECK_MESSAGE(refusal(bad).find(expected) != std::string::npos, refusal(bad));
+}
+
 TEST_CASE("a relief that cannot be is refused with its place") {
     const std::vector<std::pair<std::string, std::string>> cases{
         {with(kTwo, "type = \"ridged\"\n", ""), "file:2:1: relief[0]: has no type"},

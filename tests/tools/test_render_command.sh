@@ -82,6 +82,9 @@ check_outputs() {
     refuses 'statistics do not replace a picture' 2 '*--stats a.png: allowed: a file of its own*' render -o a.png --stats a.png
     expect 'nothing is written when something is refused' "$(echo *)" folder.exr
 
+    run scenes --relief
+    expect_match 'every kind of relief term is listed with its keys and bounds' "$status: $output" \
+        '0: *gullies: *of 1 to 2 other terms*slope*bend*lacunarity*curve: *from*numbers -1e+06 to 1e+06*craters: *worn*'
     "$strata" scenes terrain >'my scene v1.2.toml'
     run render 'my scene v1.2.toml' --size 16x9 -N 2
     expect 'names with dots and blanks make output names' "$(ls -- my*)" \

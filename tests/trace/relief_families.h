@@ -21,15 +21,113 @@ inline noise::FbmParameters random_octaves(Random& random, int most, double size
     return p;
 }
 
-inline noise::ReliefTerm random_leaf(Random& random, std::string name) {
-    if (random() % 2 == 0) return {std::move(name), {}, noise::Fbm{random_octaves(random, 6, 1.0)}};
-    noise::Ridged ridged{random_octaves(random, 6, 1.0)};
-    ridged.roundness = log_uniform(random, 0.01, 0.4);
-    ridged.feedback = random() % 3 == 0 ? 0.0 : uniform(random, 0.5, 3.0);
-    return {std::move(name), {}, ridged};
+inline noise::ReliefNode random_leaf_node(Random& random) {
+    const double feedback = random() % 3 == 0 ? 0.0 : uniform(random, 0.5, 3.0);
+    const noise::FbmParameters octaves = random_octaves(random, 6, 1.0);
+    const double turn = random() % 3 == 0 ? uniform(random, -180.0, 180.0) : 0.0;
+    switch (random() % 5) {
+        case 0:
+        case 1:
+            return noise::Fbm{octaves, turn};
+        case 2:
+            return noise::Billow{octaves, log_uniform(random, 0.01, 0.4), feedback, turn};
+        case 3:
+            return noise::Hybrid{octaves, feedback, turn};
+        default:
+            return noise::Ridged{octaves, log_uniform(random, 0.01, 0.4), feedback, turn};
+    }
 }
 
-// One to four terms: a leaf, perhaps warped, perhaps on top of another one.
+inline noise::ReliefTerm random_leaf(Random& random, std::string name) {
+    return {std::move(name), {}, random_leaf_node(random)};
+}
+
+// Through 2 to 8 points, flat and steep by turns, that rise but for one case in four.
+inline noise::Curve random_curve(Random& random) {
+    noise::Curve curve;
+    curve.from = {uniform(random, -0.6, -0.2)};
+    curve.to = {uniform(random, -0.5, 0.0)};
+    const bool turns = random() % 4 == 0;
+    for (std::size_t i = 1 + random() % 7; i > 0; --i) {
+        const double width = log_uniform(random, 0.02, 0.3);
+        curve.from.push_back(curve.from.back() + width);
+        const double rise = width * (i % 2 == 0 ? uniform(random, 0.0, 0.2) : uniform(random, 0.5, 4.0));
+        curve.to.push_back(curve.to.back() + (turns && random() % 2 == 0 ? -rise : rise));
+    }
+    return curve;
+}
+
+// One that brings another relief's heights to other ones.
+inline noise::ReliefNode random_profile(Random& random) {
+    if (random() % 2 == 0) return random_curve(random);
+    return noise::Terraces{log_uniform(random, 0.03, 0.4), uniform(random, 0.0, 1.0)};
+}
+
+// One that takes two reliefs.
+inline noise::ReliefNode random_pairing(Random& random) {
+    switch (random() % 5) {
+        case 0:
+            return noise::Highest{log_uniform(random, 1e-3, 0.3)};
+        case 1:
+            return noise::Lowest{log_uniform(random, 1e-3, 0.3)};
+        case 2:
+            return noise::Product{uniform(random, -1.0, 1.0)};
+        case 3: {
+            const double from = uniform(random, -0.2, 0.4);
+            return noise::Blend{from, from + (random() % 2 == 0 ? 1 : -1) * log_uniform(random, 0.05, 0.5)};
+        }
+        default:
+            return noise::Sum{uniform(random, -1.0, 1.0), uniform(random, -0.2, 0.2)};
+    }
+}
+
+inline noise::Dunes random_dunes(Random& random) {
+    noise::Dunes dunes;
+    dunes.wavelength = log_uniform(random, 0.3, 4.0);
+    dunes.height = dunes.wavelength * uniform(random, 0.03, 0.2);
+    dunes.azimuth_deg = uniform(random, -180.0, 180.0);
+    dunes.lee = uniform(random, 0.2, 0.6);
+    dunes.brink = log_uniform(random, 0.002, 0.05);
+    dunes.winding = uniform(random, 0.0, 1.5);
+    dunes.winding_size = dunes.wavelength * uniform(random, 1.5, 5.0);
+    dunes.vary = uniform(random, 0.0, 1.0);
+    dunes.parameters.octaves = 1 + static_cast<int>(random() % 3);
+    dunes.parameters.seed = random() >> 1;
+    return dunes;
+}
+
+inline noise::Craters random_craters(Random& random) {
+    noise::Craters craters;
+    craters.size = log_uniform(random, 0.3, 5.0);
+    craters.parameters.octaves = 1 + static_cast<int>(random() % 5);
+    craters.parameters.amplitude = uniform(random, 0.2, 2.0);
+    craters.parameters.lacunarity = uniform(random, 1.5, 2.5);
+    craters.parameters.seed = random() >> 1;
+    craters.worn = uniform(random, 0.0, 1.0);
+    return craters;
+}
+
+// Of height fields alone, of no other term.
+inline noise::ReliefNode random_place(Random& random) {
+    switch (random() % 4) {
+        case 0:
+            return noise::Ramp{uniform(random, -1.0, 1.0), uniform(random, -180.0, 180.0), uniform(random, -9.0, 9.0),
+                               log_uniform(random, 1.0, 9.0)};
+        case 1:
+            return noise::Envelope{uniform(random, -5.0, 5.0),
+                                   uniform(random, -5.0, 5.0),
+                                   uniform(random, 2.0, 9.0),
+                                   random() % 2 == 0 ? 1e6 : uniform(random, 2.0, 9.0),
+                                   0.0,
+                                   uniform(random, -0.9, 0.9)};
+        case 2:
+            return random_craters(random);
+        default:
+            return random_dunes(random);
+    }
+}
+
+// One to six terms: a leaf, perhaps warped, perhaps joined with another one, perhaps through a curve.
 inline std::vector<noise::ReliefTerm> random_relief(Random& random) {
     std::vector<noise::ReliefTerm> terms{random_leaf(random, "a")};
     if (random() % 2 == 0) {
@@ -39,8 +137,11 @@ inline std::vector<noise::ReliefTerm> random_relief(Random& random) {
     if (random() % 2 == 0) {
         const std::string before = terms.back().name;
         terms.push_back(random_leaf(random, "c"));
-        terms.push_back({"d", {before, "c"}, noise::Sum{uniform(random, -1.0, 1.0), uniform(random, -0.2, 0.2)}});
+        noise::ReliefTerm pair{"d", {before, "c"}, random_pairing(random)};
+        if (std::holds_alternative<noise::Blend>(pair.node) && random() % 2 == 0) pair.of.push_back("a");
+        terms.push_back(pair);
     }
+    if (random() % 3 == 0) terms.push_back({"h", {terms.back().name}, random_profile(random)});
     return terms;
 }
 
@@ -52,6 +153,11 @@ inline std::vector<noise::ReliefTerm> random_landform(Random& random, unsigned m
         const std::string before = terms.back().name;
         terms.push_back({std::move(name), {before}, std::move(node)});
     };
+    if (random() % 2 == 0) {
+        const std::string before = terms.back().name;
+        terms.push_back({"i", {}, random_place(random)});
+        terms.push_back({"j", {before, "i"}, random_pairing(random)});
+    }
     if (random() % 2 == 0) {
         add("e", noise::Envelope{.x = uniform(random, -5.0, 5.0),
                                  .z = uniform(random, -5.0, 5.0),
@@ -68,6 +174,7 @@ inline std::vector<noise::ReliefTerm> random_landform(Random& random, unsigned m
         gullies.parameters.seed = random() >> 1;
         gullies.size = log_uniform(random, 0.3, 2.0);
         gullies.bands = uniform(random, 0.6, 1.5);
+        gullies.branching = random() % 3 == 0 ? uniform(random, 0.0, 1.0) : 1.0;
         add("g", gullies);
         if (random() % 2 == 0) terms.back().of.push_back("a");  // which guides them
     }

@@ -7,6 +7,7 @@
 #include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/standard_output.h"
+#include "tools/scene_list/relief_list.h"
 
 namespace strata::tools::scene_list {
 
@@ -39,7 +40,12 @@ void add_command(cli::Command& program) {
     auto name = std::make_shared<std::string>();
     command->add_option("NAME", *name, "", "The scene to print as TOML: every key, its default, unit and range");
     command->footer("A printed scene is a scene file: save it, change it, render it.");
-    command->action([name] { name->empty() ? list_scenes() : print_builtin(*name); });
+    auto relief = std::make_shared<bool>(false);
+    command->add_flag("--relief", *relief, "List the kinds of [[relief]] terms with their keys and bounds instead");
+    command->action([name, relief] {
+        if (*relief) return cli::print_out(relief_list());
+        return name->empty() ? list_scenes() : print_builtin(*name);
+    });
 }
 
 }  // namespace strata::tools::scene_list

@@ -1,5 +1,6 @@
 // Puts a mass where it is wanted: r = (least + (1 - least) E) base + lift E with
 //   E = 1 / (1 + ((x - x0) / x_size)^2 + ((z - z0) / z_size)^2)^2.
+// Without a base it is the mass itself, lift E: a mound, or with one size far larger than the other a valley's axis.
 #ifndef STRATA_NOISE_RELIEF_ENVELOPE_H_
 #define STRATA_NOISE_RELIEF_ENVELOPE_H_
 
@@ -12,8 +13,8 @@ namespace strata::noise {
 
 struct Envelope {
     static constexpr std::string_view kType = "envelope";
-    static constexpr std::string_view kMeaning = "another relief, high at one place and low away from it";
-    static constexpr int kFewestInputs = 1, kMostInputs = 1;
+    static constexpr std::string_view kMeaning = "another relief, high at one place and low away from it; or a mound";
+    static constexpr int kFewestInputs = 0, kMostInputs = 1;
 
     double x = 0.0, z = 0.0, x_size = 4.0, z_size = 4.0;
     double least = 0.3, lift = 0.0;
@@ -47,6 +48,7 @@ namespace strata::noise::HWY_NAMESPACE {
 template <class Numbers>
 HWY_INLINE typename Numbers::Number relief_of(const Envelope& node, Numbers& a, const typename Numbers::Domain& at) {
     const auto mass = a.fall_off(at, node.x, node.z, 1.0 / node.x_size, 1.0 / node.z_size);
+    if (a.inputs() == 0) return a.scaled(mass, node.lift);
     const auto weight = a.plus(a.constant(node.least), a.scaled(mass, 1.0 - node.least));
     return a.plus(a.product(weight, a.input(0, at)), a.scaled(mass, node.lift));
 }

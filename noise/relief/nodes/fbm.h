@@ -15,10 +15,12 @@ struct Fbm {
     static constexpr int kFewestInputs = 0, kMostInputs = 0;
 
     FbmParameters parameters{.amplitude = 0.6, .frequency = 0.5};
+    double turn_deg = 0.0;
 
     template <class Keys>
     void keys(Keys& to) {
         to.octaves(parameters);
+        to.turn(turn_deg);
     }
 
     std::vector<Octave> octaves(int /*dimensions*/) const { return make_octaves(parameters); }

@@ -3,7 +3,8 @@
 // and C + i S octave k's stripe (noise/relief/stripe.h) along d,
 //
 //   r = base - sum over k of a_k q_k,   q_k = (1 - C / sqrt(C^2 + S^2 + e^2)) / 2,
-//   a_k = depth size gain^k m clip(|G| / m),   G <- G - pi bands / size_k a_k S / sqrt(C^2 + S^2 + e^2) d,
+//   a_k = depth size gain^k m clip(|G| / m),
+//   G <- G - branching pi bands / size_k a_k S / sqrt(C^2 + S^2 + e^2) d,
 //
 // A second input, where there is one, guides them: G is its slope then. A smooth guide is cheaper to trace by far.
 // There m is `steepest`, size_k = size / lacunarity^k, |G| is taken as sqrt(|G|^2 + c^2) - c and clip is without a
@@ -28,7 +29,7 @@ struct Gullies {
     static constexpr double kFlat = 0.08, kEven = 0.25, kStep = 0.15;
 
     FbmParameters parameters{.octaves = 5, .lacunarity = 1.9, .gain = 0.5, .amplitude = 0.15, .frequency = 1.0};
-    double size = 0.6, bands = 1.1, steepest = 1.2;
+    double size = 0.6, bands = 1.1, steepest = 1.2, branching = 1.0;
 
     template <class Keys>
     void keys(Keys& to) {
@@ -39,6 +40,7 @@ struct Gullies {
         to.number("lacunarity", parameters.lacunarity, 1.0, 10.0, "", "size ratio of neighbouring generations");
         to.number("bands", bands, 0.1, 4.0, "a cell", "how many gullies lie side by side");
         to.number("steepest", steepest, 0.05, 10.0, "slope", "beyond it gullies deepen no more");
+        to.number("branching", branching, 0.0, 1.0, "", "how far fine gullies run into coarse ones; little is cheap");
         to.seed("seed", parameters.seed, "chooses the gullies");
     }
 
@@ -83,7 +85,8 @@ HWY_INLINE typename Numbers::Number relief_of(const Gullies& node, Numbers& a, c
         const auto [even_c, even_s] = a.unit(wave_c, wave_s, Gullies::kEven);
         const auto share = a.plus(a.constant(0.5), a.scaled(even_c, -0.5));
         a.add(carved, a.scaled(a.part_of(depth, share), -1.0));
-        const double turn = -3.14159265358979323846 * node.bands * a.frequency(k);
+        if (node.branching == 0.0) continue;
+        const double turn = -3.14159265358979323846 * node.branching * node.bands * a.frequency(k);
         const auto pull = a.scaled(a.product(depth, even_s), turn);
         slope_x = a.plus(slope_x, a.product(pull, across_x));
         slope_z = a.plus(slope_z, a.product(pull, across_z));

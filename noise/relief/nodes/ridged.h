@@ -1,11 +1,5 @@
-// Ridged multifractal: crests where noise crosses zero, quiet valleys. With v_k octave k's noise over its largest
-// value,
-//
-//   s_k = (1 - sqrt(v_k^2 + roundness^2))^2,   w_0 = 1,   w_{k+1} = clip(feedback w_k s_k),
-//   r = amplitude sum over k of gain^k w_k s_k,      0 <= r <= amplitude sum of gain^k,
-//
-// after F. K. Musgrave's ridged multifractal (in Ebert et al., "Texturing and Modeling"), with a rounded crest and a
-// clip without a kink, so that the gradient is continuous. feedback = 0: all weights are 1.
+// Ridged multifractal: crests where noise crosses zero, quiet valleys. A multifractal (noise/relief/multifractal-inl.h)
+// of the curve s = (1 - sqrt(v^2 + roundness^2))^2, whose crest is rounded.
 #ifndef STRATA_NOISE_RELIEF_RIDGED_H_
 #define STRATA_NOISE_RELIEF_RIDGED_H_
 
@@ -24,10 +18,12 @@ struct Ridged {
     FbmParameters parameters{.octaves = 6, .amplitude = 1.0, .frequency = 0.25};
     double roundness = 0.05;
     double feedback = 1.5;
+    double turn_deg = 0.0;
 
     template <class Keys>
     void keys(Keys& to) {
         to.octaves(parameters);
+        to.turn(turn_deg);
         to.number("roundness", roundness, 0.001, 0.9, "of the noise's largest value",
                   "how round crests are; small is sharp and dear to trace");
         to.number("feedback", feedback, 0.0, 8.0, "",
@@ -41,7 +37,7 @@ struct Ridged {
 #endif
 
 #ifdef STRATA_RELIEF_FORMULAS
-#include "noise/relief/curves-inl.h"
+#include "noise/relief/multifractal-inl.h"
 #if defined(STRATA_NOISE_RELIEF_RIDGED_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STRATA_NOISE_RELIEF_RIDGED_INL_H_
 #undef STRATA_NOISE_RELIEF_RIDGED_INL_H_
@@ -53,19 +49,7 @@ namespace strata::noise::HWY_NAMESPACE {
 
 template <class Numbers>
 HWY_INLINE typename Numbers::Number relief_of(const Ridged& node, Numbers& a, const typename Numbers::Domain& at) {
-    const RidgeCurve ridge{node.roundness};
-    auto sum = a.begin_sum();
-    auto weight = a.constant(1.0);
-    for (std::size_t k = 0; k < a.octaves(); ++k) {
-        if (!a.sees(sum, k, at, 0.0, a.amplitude_from(k))) break;
-        auto term = a.curved(ridge, a.scaled(a.octave(k, at), 1.0 / a.peak()));
-        if (node.feedback > 0.0) {
-            term = a.product(weight, term);
-            weight = a.curved(SoftClip{}, a.scaled(term, node.feedback));
-        }
-        a.add(sum, a.scaled(term, a.amplitude(k)));
-    }
-    return a.total(sum);
+    return multifractal(RidgeCurve{node.roundness}, node.feedback, a, at);
 }
 
 }  // namespace strata::noise::HWY_NAMESPACE
