@@ -60,11 +60,10 @@ TEST_CASE("a landform of any terms has the values that the oracle reads") {
         for (int j = 0; j < 50; ++j) {
             const glm::dvec3 x = uniform(random, 0.0, 30.0) * unit_vector(random);
             const double value = relief.jet(x).value;
-            // The oracle does not round the places of dunes' and craters' knots to floats.
-            REQUIRE(value == doctest::Approx(judge.value({x.x, x.y, x.z})).epsilon(2e-7));
+            REQUIRE(value == doctest::Approx(judge.value({x.x, x.y, x.z})).epsilon(1e-9));
             const oracle::ReliefOracle::Rough rough = judge.rough({x.x, x.y, x.z});
-            REQUIRE(value <= rough.high + 2e-7);
-            REQUIRE(value >= rough.low - 2e-7);
+            REQUIRE(value <= rough.high + 1e-9);
+            REQUIRE(value >= rough.low - 1e-9);
         }
     }
 }

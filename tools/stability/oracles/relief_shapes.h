@@ -28,25 +28,27 @@ inline double through_knots(const std::vector<double>& x, const std::vector<doub
         const double h0 = x[i] - x[i - 1], h1 = x[i + 1] - x[i], w0 = 2.0 * h1 + h0, w1 = h1 + 2.0 * h0;
         return (w0 + w1) / (w0 / chord(i - 1) + w1 / chord(i));
     };
-    if (v <= x.front()) return y.front() + slope(0) * (v - x.front());
-    if (v >= x.back()) return y.back() + slope(last) * (v - x.back());
+    const auto place = [&](std::size_t i) { return static_cast<double>(static_cast<float>(x[i])); };
+    if (v <= place(0)) return y.front() + slope(0) * (v - place(0));
+    if (v >= place(last)) return y.back() + slope(last) * (v - place(last));
     std::size_t i = 0;
-    while (v > x[i + 1]) ++i;
-    return hermite(x[i], y[i], slope(i), x[i + 1], y[i + 1], slope(i + 1), v);
+    while (v > place(i + 1)) ++i;
+    return hermite(place(i), y[i], slope(i), place(i + 1), y[i + 1], slope(i + 1), v);
 }
 
-// The windward side, the slip face and its foot, with parabolas about the brink.
+// The windward side, the slip face and its foot, with parabolas about the brink, between places that are floats.
 inline double dune(double u, double lee, double brink) {
     const double w = 1.0 - lee, foot = 0.4 * lee, end = (w - brink) / w;
     const double before = end * end * (1.9 - 0.9 * end), rise = end * (3.8 - 2.7 * end) / w;
     const double top = before + 0.5 * rise * brink, fall = top / (lee - 0.5 * brink - 0.5 * foot);
-    const double a = u / w;
-    if (u <= w - brink) return a * a * (1.9 - 0.9 * a) / top;
-    if (u <= w) return 1.0 - 0.5 * rise * (w - u) * (w - u) / brink / top;
-    if (u <= w + brink) return 1.0 - 0.5 * fall * (u - w) * (u - w) / brink / top;
-    const double back = 1.0 - u;
-    if (back >= foot) return (back - 0.5 * foot) * fall / top;
-    return 0.5 * back * back / foot * fall / top;
+    const double places[6] = {0.0, w - brink, w, w + brink, 1.0 - foot, 1.0};
+    const double heights[6] = {0.0, before, top, top - 0.5 * fall * brink, 0.5 * foot * fall, 0.0};
+    const double slopes[6] = {0.0, rise, 0.0, -fall, -fall, 0.0};
+    int i = 0;
+    while (i < 4 && u >= static_cast<float>(places[i + 1])) ++i;
+    return hermite(static_cast<float>(places[i]), heights[i], slopes[i], static_cast<float>(places[i + 1]),
+                   heights[i + 1], slopes[i + 1], u) /
+           top;
 }
 
 inline double pit(double q) {
@@ -55,7 +57,9 @@ inline double pit(double q) {
         {1.15, 0.0458, -0.085}, {1.6, 0.02, -0.038},   {2.4, 0.0055, -0.01}, {3.8025, 0.0, 0.0}};
     for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
         const auto &a = knots[i], &b = knots[i + 1];
-        if (q < b[0]) return hermite(a[0], a[1], a[2], b[0], b[1], b[2], q);
+        if (q < static_cast<float>(b[0])) {
+            return hermite(static_cast<float>(a[0]), a[1], a[2], static_cast<float>(b[0]), b[1], b[2], q);
+        }
     }
     return 0.0;
 }
