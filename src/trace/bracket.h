@@ -43,8 +43,8 @@ class Bracketer {
     // brackets: of each ray. A ray's bracket depends on that ray and its windows alone.
     void bracket(std::span<const Ray> rays, const WindowedRays& group, std::span<Bracket> brackets) const;
 
-    // Bound of half the second derivative of the base along any ray wherever it may be solid; infinite where there is
-    // none.
+    // Bound of half the second derivative of the base along any ray down to where all is solid, whatever the relief;
+    // infinite where there is none.
     static double half_curvature(const Field& field);
 
   private:

@@ -132,7 +132,9 @@ HWY_INLINE Enclosure rounded(Enclosure x, const ReliefPoints& points, hn::Mask<F
     widen(x, e0, hn::Mul(unit, sum));
     const FloatVec most = set(kMostSlack);
     const Slack wide = larger(x.up, x.down);
-    const auto fits = hn::Lt(hn::Add(hn::Max(wide.e0, wide.e2), hn::Max(wide.e1, sum)), most);
+    // Sums, for a maximum may hide what is not a number.
+    const FloatVec size = hn::Add(hn::Add(wide.e0, wide.e2), hn::Add(hn::Add(wide.e1, sum), hn::Abs(x.value)));
+    const auto fits = hn::Lt(size, most);
     *points.broken = hn::Or(*points.broken, hn::AndNot(fits, used));
     const auto least = [&](const Slack& a) HWY_ATTR {
         return Slack{hn::Min(a.e0, most), hn::Min(a.e1, most), hn::Min(a.e2, most)};

@@ -220,8 +220,10 @@ class EnclosureRules {
     HWY_INLINE Number limited(Number x, FloatVec low, FloatVec high) const {
         const FloatVec zero = hn::Zero(FloatTag()), radius = points_.radius;
         const FloatVec off = set(kCurveError);  // values are rounded
-        const FloatVec above = hn::Max(hn::Add(hn::Sub(high, x.value), off), off);
-        const FloatVec below = hn::Max(hn::Add(hn::Sub(x.value, low), off), off);
+        // Where low or high is not a number these are none, and x keeps its own bounds.
+        const auto at_least_off = [&](FloatVec v) HWY_ATTR { return hn::IfThenElse(hn::Lt(v, off), off, v); };
+        const FloatVec above = at_least_off(hn::Add(hn::Sub(high, x.value), off));
+        const FloatVec below = at_least_off(hn::Add(hn::Sub(x.value, low), off));
         const FloatVec steep = length(x.gradient), turn = hn::Mul(steep, radius);
         const auto loose =
             hn::Or(hn::Gt(hn::Add(turn, x.up.at(radius)), above), hn::Gt(hn::Add(turn, x.down.at(radius)), below));

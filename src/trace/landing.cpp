@@ -53,6 +53,7 @@ HWY_INLINE void take_bracket(LandingBlock& block, std::size_t lane, const Ray& r
 struct Landed {
     FloatVec f, error, slope, bend;
     FloatPoint gradient;
+    FloatVec base;  // of f, that in front of the noise
 };
 
 template <bool kNear>
@@ -107,7 +108,7 @@ HWY_INLINE Landed evaluate_landing(const Field& field, const LandingPlan& plan, 
     if (field.drifts()) noise_x = add(x, load_point(block.noise_shift));
     const FloatPoint along = to_float(direction);
     const Base base = base_at<kPlanar>(field, x, direction);
-    Landed at{base.value, hn::Zero(d), base.slope, hn::Zero(d), base_gradient_at<kPlanar>(field, x)};
+    Landed at{base.value, hn::Zero(d), base.slope, hn::Zero(d), base_gradient_at<kPlanar>(field, x), base.value};
     for (const TraceOctave& octave : plan.trace.octaves) {
         if (HWY_LIKELY(octave.frequency * block.reach + 2.0 < kNearCells)) {
             add_octave_at<kPlanar, true>(octave, noise_x, along, at);
@@ -128,8 +129,9 @@ struct Narrowed {
 
 // About f + f' y + b y^2 for y in [outside, inside], |y| <= r: on x = 0 to 1 it is c0 + c1 x + c2 x^2 with
 //   c0 = f + o (f' + o b),  c1 = w (f' + 2 o b),  c2 = w^2 b,   o = outside, w = inside - outside <= 2 r.
-// Each has up to four roundings, of terms that sum up to |f| + 5 |f'| r + 13 |b| r^2; first_fall's own error,
-// kFallPad (|c0| + |c1| + |c2|), is less than that many times 2^-23. 2^-19 (|f| + |f'| r + |b| r^2) is more than both.
+// Each has up to four roundings, of terms that sum up to |f| + 5 |f'| r + 13 |b| r^2: 2^-22 of that sum. first_fall's
+// own error, kFallPad (|c0| + |c1| + |c2|), is 2^-23 of it at most. 2^-17 (|f| + |f'| r + |b| r^2), of which 13 * 3/8
+// would do, is more than both. What f itself may be off by is at least kLeastFall, as first_fall wants it.
 HWY_INLINE Narrowed narrow_bracket(const LandingPlan& plan, const Landed& at, const Narrowed& was) {
     const FloatTag d;
     const FloatVec one = hn::Set(d, 1.0f);
@@ -137,16 +139,19 @@ HWY_INLINE Narrowed narrow_bracket(const LandingPlan& plan, const Landed& at, co
     const FloatVec cubic = hn::MulAdd(r, hn::Set(d, plan.cube), hn::Set(d, plan.bend_error));
     const FloatVec linear = hn::MulAdd(r, cubic, hn::Set(d, plan.trace.slope_error));
     const FloatVec size = hn::MulAdd(r, hn::MulAdd(r, hn::Abs(at.bend), hn::Abs(at.slope)), hn::Abs(at.f));
-    const FloatVec error =
-        hn::MulAdd(size, hn::Set(d, 0x1p-19f), hn::Mul(hn::MulAdd(r, linear, at.error), hn::Set(d, 1.0f + 0x1p-19f)));
+    const FloatVec error = hn::MulAdd(
+        size, hn::Set(d, 0x1p-17f),
+        hn::Mul(hn::MulAdd(r, linear, hn::Max(at.error, hn::Set(d, kLeastFall))), hn::Set(d, 1.0f + 0x1p-19f)));
     const FloatVec width = hn::Sub(was.inside, was.outside);
     const FloatVec c0 = hn::MulAdd(was.outside, hn::MulAdd(was.outside, at.bend, at.slope), at.f);
     const FloatVec c1 = hn::Mul(width, hn::MulAdd(hn::Add(was.outside, was.outside), at.bend, at.slope));
     const FloatVec c2 = hn::Mul(hn::Mul(width, width), at.bend);
-    // Upwards the base may bend by half_curvature y^2 <= half_curvature r^2 more.
+    // Upwards the base may bend by half_curvature y^2 <= half_curvature r^2 more, if it is nowhere deeper than that
+    // holds for.
+    const auto is_deep = hn::Lt(hn::Sub(at.base, r), hn::Set(d, plan.deepest));
     const FloatVec above = hn::MulAdd(hn::Mul(r, r), hn::Set(d, plan.half_curvature), error);
     const FloatVec low = hn::Min(fall_no_later(hn::Sub(c0, error), c1, c2), one);
-    const FloatVec high = hn::Min(fall_no_sooner(hn::Add(c0, above), c1, c2), one);
+    const FloatVec high = hn::IfThenElse(is_deep, one, hn::Min(fall_no_sooner(hn::Add(c0, above), c1, c2), one));
     // Places are rounded by less than 2^-22 r.
     const FloatVec place = hn::Mul(r, hn::Set(d, 0x1p-22f));
     const FloatVec outside = hn::Max(was.outside, hn::Sub(hn::MulAdd(low, width, was.outside), place));
@@ -264,6 +269,8 @@ LandingPlan::LandingPlan(const Field& field) : trace(field.plan()) {
     cube = static_cast<float>(cubes * bounds.third / 6.0 * kRoundUp);
     bend_error = static_cast<float>(squares * (1.5 * errors.hessian_entry + 39 * 0x1p-24 * bounds.second) * kRoundUp);
     half_curvature = static_cast<float>(Bracketer::half_curvature(field));
+    // A little less deep, for the base is rounded.
+    if (half_curvature > 0.0f) deepest = static_cast<float>(-0.999 * field.amplitude());
 }
 
 void Lander::land(std::span<const Ray> rays, std::span<const std::uint32_t> landing, std::span<Bracket> brackets,

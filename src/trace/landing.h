@@ -34,6 +34,7 @@ struct LandingPlan {
 
     // Of the base, bracket.h.
     float half_curvature = 0.0f;
+    float deepest = -1e30f;  // base values for which half_curvature holds are no lower
 };
 
 class Lander {

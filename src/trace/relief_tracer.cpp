@@ -28,6 +28,7 @@ struct ReliefStep {
     FloatVec f, slope;  // of what was evaluated, along the ray
     FloatVec safe;
     hn::Mask<FloatTag> is_hit, is_doubtful;
+    hn::Mask<FloatTag> is_lost;  // f is not a number even in double
 };
 
 // The reference path's value where all octaves were evaluated and float cannot tell the sign.
@@ -79,9 +80,11 @@ HWY_INLINE ReliefStep relief_step(const Field& field, const TracePlan& constants
     const FloatVec error = hn::Mul(set(kDifference), hn::Add(hn::Abs(base.value), hn::Abs(r.value)));
     FloatVec lower = hn::Sub(step.f, hn::Add(error, r.up.e0));
     const auto inside = hn::Lt(hn::Add(step.f, hn::Add(error, r.down.e0)), zero);
-    auto unsure = hn::And(active, hn::AndNot(inside, hn::Le(lower, zero)));
+    // What is not a number is neither above 0 nor below.
+    auto unsure = hn::AndNot(hn::Or(inside, hn::Gt(lower, zero)), active);
     step.is_hit = hn::And(active, inside);
     const auto settled = hn::And(unsure, whole);
+    step.is_lost = hn::Lt(zero, zero);
     FloatVec least = zero;
     if (!hn::AllFalse(d, settled)) {
         settle_relief(field, packet, x, settled, step.f, counters);
@@ -92,6 +95,7 @@ HWY_INLINE ReliefStep relief_step(const Field& field, const TracePlan& constants
         const FloatVec slowest = set(constants.inverse_lipschitz * static_cast<float>(kRoundDown));
         least = hn::IfThenElseZero(settled, hn::Mul(hn::Max(step.f, zero), slowest));
         step.is_hit = hn::Or(step.is_hit, hn::And(settled, hn::Le(step.f, zero)));
+        step.is_lost = hn::And(settled, hn::IsNaN(step.f));
         unsure = hn::AndNot(whole, unsure);
     }
     step.is_doubtful = unsure;
@@ -133,10 +137,10 @@ HWY_INLINE void step_relief(const Field& field, const TracePlan& constants, cons
     const WordVec limit = hn::Load(dw, packet.step_limit);
     const auto is_last = hn::RebindMask(d, hn::Eq(hn::Max(taken, limit), taken));
 
-    const auto moves = hn::AndNot(found.is_hit, hn::AndNot(found.is_doubtful, active));
+    const auto moves = hn::AndNot(hn::Or(found.is_hit, hn::Or(found.is_doubtful, found.is_lost)), active);
     const Wide clear = add(s, to_wide(found.safe)), landing = add(clear, delta);
     const auto misses = hn::And(moves, narrow(greater_equal(landing, load_wide(packet.end))));
-    const auto ends = hn::Or(hn::Or(found.is_hit, misses), hn::And(active, is_last));
+    const auto ends = hn::Or(hn::Or(found.is_hit, misses), hn::Or(found.is_lost, hn::And(active, is_last)));
     const auto goes_on = hn::AndNot(ends, moves);
     store_wide(select(widen(goes_on), clear, load_wide(packet.s_outside)), packet.s_outside);
     store_wide(select(widen(goes_on), landing, s), packet.s);

@@ -25,7 +25,7 @@ std::string error_of(const std::string& assignment, const std::string& option = 
 }
 
 const std::string kSections =
-    "film, sampling, shutter, camera, surface, scale, sun, sky, material, zoneplate, checker, wheel, "
+    "film, sampling, shutter, camera, surface, scale, sun, sky, fog, material, zoneplate, checker, wheel, "
     "edge, ramp, constant";
 
 }  // namespace

@@ -38,7 +38,7 @@ std::string load_error_of(const std::string& path) {
 
 const std::string kCameraKeys = "position, look_at, up, fov_deg, far, interpolation, keys";
 const std::string kSections =
-    "film, sampling, shutter, camera, surface, scale, sun, sky, material, zoneplate, checker, wheel, edge, ramp, "
+    "film, sampling, shutter, camera, surface, scale, sun, sky, fog, material, zoneplate, checker, wheel, edge, ramp, "
     "constant";
 
 }  // namespace
@@ -89,7 +89,7 @@ TEST_CASE("unknown keys and sections are refused where they stand, with what is 
           "t.toml:1:9: camera.lens: unknown key, allowed in [camera]: " + kCameraKeys);
     CHECK(error_of("[camrea]\nfov_deg = 35\n") ==
           "t.toml:1:2: camrea: unknown section, allowed: " + kSections + ", did you mean 'camera'?");
-    CHECK(error_of("title = \"x\"\n [ fog ]\n") == "t.toml:2:4: fog: unknown section, allowed: " + kSections);
+    CHECK(error_of("title = \"x\"\n [ smoke ]\n") == "t.toml:2:4: smoke: unknown section, allowed: " + kSections);
     CHECK(error_of("[\"\"]\nx = 1").starts_with("t.toml:1:2: \"\": unknown section"));
     CHECK(error_of("\"\" = 1").starts_with("t.toml:1:1: \"\": unknown key"));
     CHECK(error_of("\"a\\nb\" = 1").starts_with("t.toml:1:1: a\\u000Ab: unknown key"));
@@ -112,7 +112,7 @@ TEST_CASE("a section that is no section and a key that is one are wrong types") 
 TEST_CASE("of several errors the first in the file is named") {
     CHECK(error_of("[wheel]\nspokes = 0\n[camera]\nfov_deg = 900\n").starts_with("t.toml:2:10: wheel.spokes: out of"));
     CHECK(error_of("[surface]\noctaves = 99\namplitude = -1\n").starts_with("t.toml:2:11: surface.octaves: out of"));
-    CHECK(error_of("[fog]\n[camera]\nfov_deg = 900\n").starts_with("t.toml:1:2: fog: unknown section"));
+    CHECK(error_of("[smoke]\n[camera]\nfov_deg = 900\n").starts_with("t.toml:1:2: smoke: unknown section"));
     CHECK(error_of("[camera]\nfov_deg = 900\n[fog]\n").starts_with("t.toml:2:11: camera.fov_deg: out of range (900)"));
 }
 
