@@ -28,4 +28,10 @@ std::vector<Octave> make_octaves(const FbmParameters& parameters) {
     return octaves;
 }
 
+std::vector<Octave> make_live_octaves(const FbmParameters& parameters) {
+    std::vector<Octave> octaves = make_octaves(parameters);
+    while (octaves.size() > 1 && octaves.back().amplitude == 0.0) octaves.pop_back();
+    return octaves;
+}
+
 }  // namespace strata::noise

@@ -34,4 +34,8 @@ struct Octave {
 // The octaves of `parameters`, coarsest first. a_k and w_k by repeated multiplication in double.
 std::vector<Octave> make_octaves(const FbmParameters& parameters);
 
+// The same without those at the end whose amplitude is 0, though not without the first. Their frequencies may lie
+// beyond what a position can be told in.
+std::vector<Octave> make_live_octaves(const FbmParameters& parameters);
+
 }  // namespace strata::noise

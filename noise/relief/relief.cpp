@@ -258,7 +258,7 @@ double Relief::finest_frequency() const {
     double finest = 0.0;
     for (const ReliefPart& part : parts_) {
         for (const Octave& octave : part.octaves) {
-            if (octave.amplitude != 0.0) finest = std::max(finest, octave.frequency);
+            finest = std::max(finest, octave.frequency);
         }
     }
     return finest;

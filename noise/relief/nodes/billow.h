@@ -32,7 +32,7 @@ struct Billow {
                   "how far fine cushions keep to the tops of coarse ones; 0: everywhere alike");
     }
 
-    std::vector<Octave> octaves(int /*dimensions*/) const { return make_octaves(parameters); }
+    std::vector<Octave> octaves(int /*dimensions*/) const { return make_live_octaves(parameters); }
 };
 
 }  // namespace strata::noise

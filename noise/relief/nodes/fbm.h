@@ -23,7 +23,7 @@ struct Fbm {
         to.turn(turn_deg);
     }
 
-    std::vector<Octave> octaves(int /*dimensions*/) const { return make_octaves(parameters); }
+    std::vector<Octave> octaves(int /*dimensions*/) const { return make_live_octaves(parameters); }
 };
 
 }  // namespace strata::noise

@@ -27,7 +27,7 @@ struct Hybrid {
                   "how far fine octaves keep to where coarse ones are high; 0: everywhere alike");
     }
 
-    std::vector<Octave> octaves(int /*dimensions*/) const { return make_octaves(parameters); }
+    std::vector<Octave> octaves(int /*dimensions*/) const { return make_live_octaves(parameters); }
 };
 
 }  // namespace strata::noise

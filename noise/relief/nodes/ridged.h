@@ -30,7 +30,7 @@ struct Ridged {
                   "how far fine crests keep to coarse ones: valleys are quiet; 0: everywhere alike");
     }
 
-    std::vector<Octave> octaves(int /*dimensions*/) const { return make_octaves(parameters); }
+    std::vector<Octave> octaves(int /*dimensions*/) const { return make_live_octaves(parameters); }
 };
 
 }  // namespace strata::noise

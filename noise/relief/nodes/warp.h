@@ -30,7 +30,7 @@ struct Warp {
         for (int component = 0; component < dimensions; ++component) {
             FbmParameters of_component = parameters;
             of_component.seed ^= kStream * static_cast<std::uint64_t>(component + 1);
-            for (const Octave& octave : make_octaves(of_component)) all.push_back(octave);
+            for (const Octave& octave : make_live_octaves(of_component)) all.push_back(octave);
         }
         return all;
     }
