@@ -18,7 +18,7 @@ check_unknown_words() {
     refuses 'a misspelt option gets the nearest name' 2 "*--estimatr*did you mean '--estimator'*" render --estimatr sobol
     refuses 'a misspelt option with a value attached gets the nearest name' 2 "*did you mean '--size'*" render --siz=2x2
     refuses 'an unknown letter gets the allowed options' 2 '*-Q: unknown option*--quiet*' render -Q
-    refuses 'no command names the commands' 2 '*render, scenes, probe*'
+    refuses 'no command names the commands' 2 '*render, merge, scenes, probe*'
     refuses 'a second scene is one argument too many' 2 '*planet: one argument too many*' render terrain planet
     refuses 'a misspelt scene gets the nearest name' 2 "*did you mean 'hyperterrain'*" render hyperterain
     refuses 'a misspelt scene to print gets the nearest name' 2 "*did you mean 'terrain'*" scenes terain
@@ -247,7 +247,7 @@ check_signals() {
 
 check_failing_writes() {
     echo earlier >a.exr
-    output=$(ulimit -f 12 && "$strata" render --size 64x36 -N 1 --format float --quiet -o a.exr -o a.png 2>&1)
+    output=$(ulimit -f 20 && "$strata" render --size 64x36 -N 1 --format float --quiet -o a.exr -o a.png 2>&1)
     expect_match 'a full disk is told' "$?: $output" '1: strata: cannot write "a.exr": File too large'
     output=$(ulimit -f 2 && "$strata" render hyperterrain --size 320x360 -N 8 --estimator shared --quiet -o full.exr --stats s.json 2>&1)
     expect_match 'a render none of whose files can be written fails' "$?: $output" '1: *full.exr*'

@@ -25,7 +25,8 @@ namespace {
 
 // A random point of the surface, the last double outside it along a line; nothing if the line misses it.
 std::optional<glm::dvec3> random_surface_point(const trace::Field& field, Random& random) {
-    const double height = 1.01 * field.amplitude() + 1e-9 * std::abs(field.base(glm::dvec3(0.0)));
+    // A surface without noise wants a little to both sides as well.
+    const double height = 1.01 * field.amplitude() + 1e-9 * std::max(1.0, std::abs(field.base(glm::dvec3(0.0))));
     const double ball = field.extent().ball, wide = std::isfinite(ball) ? 0.6 * ball : 60.0;
     const auto anywhere = [&] { return uniform(random, 0.0, wide) * unit_vector(random); };
     const glm::dvec3 x = anywhere();
