@@ -37,6 +37,7 @@ std::vector<int> ShardDeal::owners_of_deal(std::int64_t deal) const {
     const std::int64_t left = blocks() - deal * count_;
     drawn.resize(static_cast<std::size_t>(std::min<std::int64_t>(count_, left)));
     std::vector<int> owners;
+    owners.reserve(drawn.size());
     for (const std::uint32_t shard : drawn) owners.push_back(static_cast<int>(shard) + 1);
     return owners;
 }

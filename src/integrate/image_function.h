@@ -66,8 +66,10 @@ struct SampleOut {
     SampleOut() = default;
 
     // Radiance alone.
-    template <std::convertible_to<std::span<glm::vec3>> Radiance>
-    SampleOut(Radiance&& sample_radiance) : radiance(std::forward<Radiance>(sample_radiance)) {}
+    SampleOut(std::span<glm::vec3> sample_radiance) : radiance(sample_radiance) {}
+    template <class Radiance>
+    requires std::convertible_to<Radiance&, std::span<glm::vec3>> SampleOut(Radiance& sample_radiance)
+        : radiance(sample_radiance) {}
 
     SampleOut(std::span<glm::vec3> sample_radiance, const ChannelSet& asked, std::span<float> channel_values)
         : radiance(sample_radiance), channels(&asked), values(channel_values) {}

@@ -40,7 +40,7 @@ std::vector<SceneLight> lights_of(const SurfaceSetup& setup, const shaders::Shad
     std::vector<SceneLight> lights;
     for (const shaders::Light& light : shaders::members_in<shaders::Light>(inputs)) {
         const auto add = [&](const auto& member) {
-            const glm::dvec3 direction = member.direction();
+            const glm::dvec3& direction = member.direction();
             const bool casts_shadows = member.casts_shadows();
             const double radius = member.angular_radius();
             lights.push_back(

@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
 
+constexpr char kGnu[] = "GNU";  // the owner of such notes, its last 0 included
+
 // The description of the note NT_GNU_BUILD_ID among a segment's notes.
 std::string build_id_in(const char* notes, std::size_t size) {
     for (std::size_t at = 0; at + sizeof(ElfW(Nhdr)) <= size;) {
@@ -21,7 +23,7 @@ std::string build_id_in(const char* notes, std::size_t size) {
         const std::size_t name = at + sizeof note, text = name + padded(note.n_namesz);
         if (text + note.n_descsz > size) break;
         if (note.n_type == NT_GNU_BUILD_ID &&
-            std::string_view(notes + name, note.n_namesz) == std::string_view("GNU", 4)) {
+            std::string_view(notes + name, note.n_namesz) == std::string_view(kGnu, sizeof kGnu)) {
             std::string id;
             for (std::size_t i = 0; i < note.n_descsz; ++i) {
                 id += fmt::format("{:02x}", static_cast<unsigned char>(notes[text + i]));
