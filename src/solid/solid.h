@@ -10,7 +10,8 @@
 //   keys(to)           tells its keys to `to` (src/scene/key_list.h); their names are its own among all kinds
 //   value, gradient    of the base. Along every ray value() is linear or convex: the tracers take its tangent as a
 //                      lower bound
-//   half_curvature     bound of half the second derivative of value() along any ray down to where all is solid; infinite:
+//   half_curvature     bound of half the second derivative of value() along any ray down to where all is solid;
+//   infinite:
 //                      there is none
 //   height, up         what materials call height, and up, of unit length
 //   clip               the part of a ray of unit direction outside of which f > 0; amplitude bounds |relief|

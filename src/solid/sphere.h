@@ -31,7 +31,8 @@ struct Sphere {
         return distance > 0.0 ? x / distance : glm::dvec3(0.0, 1.0, 0.0);
     }
 
-    // Whatever the relief, what lies deeper than radius - amplitude is solid: a ray gets no deeper before its first hit.
+    // Whatever the relief, what lies deeper than radius - amplitude is solid: a ray gets no deeper before its first
+    // hit.
     double half_curvature(double amplitude) const {
         const double least = radius - amplitude;
         return least > 0.0 ? 0.5 / least : std::numeric_limits<double>::infinity();
