@@ -17,11 +17,13 @@ class RoughLobe {
     // roughness in [0,1]; 0 is Lambert: 1 for all directions.
     explicit RoughLobe(double roughness) : a_(1.0 / (1.0 + kA * roughness)), b_(roughness * a_) {}
 
-    // BRDF times pi of a white surface; unit vectors; 0 where one is below the surface. Its mean over directions of
-    // light, by the cosine, is 1 for every direction of the eye.
+    // BRDF times pi of a white surface; unit vectors; 0 for light from below the surface. Its mean over directions of
+    // light, by the cosine, is 1 for every direction of the eye. An eye below is taken for one that grazes: normals
+    // have detail finer than hits, and some of what is seen is turned away from the eye by it.
     double operator()(const glm::dvec3& normal, const glm::dvec3& to_light, const glm::dvec3& to_eye) const {
-        const double in = std::min(glm::dot(normal, to_light), 1.0), out = std::min(glm::dot(normal, to_eye), 1.0);
-        if (in <= 0.0 || out <= 0.0) return 0.0;
+        const double in = std::min(glm::dot(normal, to_light), 1.0);
+        if (in <= 0.0) return 0.0;
+        const double out = std::clamp(glm::dot(normal, to_eye), kGrazing, 1.0);
         const double s = glm::dot(to_light, to_eye) - in * out;
         const double single = a_ + b_ * (s > 0.0 ? s / std::max(in, out) : s);
         const double mean_lost = 1.0 - a_ - b_ * kMean;
@@ -30,6 +32,7 @@ class RoughLobe {
     }
 
   private:
+    static constexpr double kGrazing = 1e-3;  // cosine
     static constexpr double kA = 0.5 - 2.0 / (3.0 * std::numbers::pi);
     static constexpr double kMean = 2.0 / 3.0 - 28.0 / (15.0 * std::numbers::pi);
 

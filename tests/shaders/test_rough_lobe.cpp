@@ -58,8 +58,8 @@ TEST_CASE("light and eye may change places, and nothing is negative or without b
     double least = 1e9, most = 0.0;
     for (int i = 0; i < 100'000; ++i) {
         const RoughLobe lobe(u(random));
-        const glm::dvec3 a = direction(1e-6 + u(random) * (1.0 - 1e-6), 7.0 * u(random));
-        const glm::dvec3 b = direction(1e-6 + u(random) * (1.0 - 1e-6), 7.0 * u(random));
+        const glm::dvec3 a = direction(1e-3 + u(random) * (1.0 - 1e-3), 7.0 * u(random));
+        const glm::dvec3 b = direction(1e-3 + u(random) * (1.0 - 1e-3), 7.0 * u(random));
         const double value = lobe(kUp, a, b);
         REQUIRE(std::isfinite(value));
         REQUIRE(value == doctest::Approx(lobe(kUp, b, a)).epsilon(1e-12));
@@ -78,9 +78,23 @@ TEST_CASE("a full moon is flat: under light from behind the eye a rough slope is
     CHECK(radiance(rough, slanting) / radiance(rough, level) > 0.55);
 }
 
-TEST_CASE("from below the surface there is no light") {
+TEST_CASE("light from below the surface is none") {
     const RoughLobe lobe(0.5);
     CHECK(lobe(kUp, {0.6, -0.8, 0.0}, {0.0, 1.0, 0.0}) == 0.0);
-    CHECK(lobe(kUp, {0.0, 1.0, 0.0}, {0.6, -0.8, 0.0}) == 0.0);
     CHECK(lobe(kUp, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}) == 0.0);
+}
+
+TEST_CASE("a normal that is turned away from the eye shines on as it turns, and loses no light at once") {
+    for (const double roughness : {0.01, 0.35, 1.0}) {
+        const RoughLobe lobe(roughness);
+        const glm::dvec3 to_light = direction(0.7, 1.0);
+        double before = lobe(kUp, to_light, direction(0.05, 1.5));
+        for (double cosine = 0.05; cosine > -0.9; cosine -= 0.001) {
+            const glm::dvec3 to_eye = direction(cosine, 1.5);
+            const double value = lobe(kUp, to_light, to_eye);
+            CHECK(std::abs(value - before) < 0.01);
+            CHECK(value > 0.3);
+            before = value;
+        }
+    }
 }
