@@ -4,10 +4,12 @@
 
 #include <concepts>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <variant>
 #include <vector>
 
+#include "shaders_cpu/cloud_scene.h"
 #include "shaders_cpu/daylight_scene.h"
 #include "src/scene/scene.h"
 
@@ -15,33 +17,40 @@ namespace strata::shaders {
 
 // What members of the lists are made from. References live as long as the members.
 struct ShaderInputs {
-    const scene::Scene& scene;      // valid
-    const DaylightScene* daylight;  // its tables; null unless scene.sky.model is daylight
+    const scene::Scene& scene;           // valid
+    const DaylightScene* daylight;       // its tables; null unless scene.sky.model is daylight
+    const CloudScene* clouds = nullptr;  // null unless scene::needs_clouds(scene)
 };
 
-// Part of every member's concept.
+// Part of every member's concept. One that is in a scene and may yet add nothing to its picture says so in a
+// has_part(scene) of its own.
 template <class T>
 concept ListMember = requires(const scene::Scene& scene) {
     { T::is_in(scene) } -> std::same_as<bool>;
+    { T::kName } -> std::convertible_to<std::string>;       // what it is called when a render is explained
+    { T::why(scene) } -> std::convertible_to<std::string>;  // what it does in this scene, or why nothing
 }
 &&std::constructible_from<T, const ShaderInputs&>;
 
-// Those that a scene has, in the list's order.
-template <class... Members>
-std::vector<std::variant<Members...>> members_in(const ShaderInputs& inputs,
-                                                 std::type_identity<std::variant<Members...>> /*list*/) {
-    std::vector<std::variant<Members...>> found;
-    found.reserve(sizeof...(Members));
-    const auto look_at = [&]<class Member>(std::type_identity<Member>) {
-        if (Member::is_in(inputs.scene)) found.push_back(Member(inputs));
-    };
+// Calls look_at(std::type_identity<Member>{}) for all that there are, in the list's order.
+template <class LookAt, class... Members>
+void for_each_class(const LookAt& look_at, std::type_identity<std::variant<Members...>> /*list*/) {
     (look_at(std::type_identity<Members>{}), ...);
-    return found;
+}
+template <class List, class LookAt>
+void for_each_class(const LookAt& look_at) {
+    for_each_class(look_at, std::type_identity<List>{});
 }
 
+// Those that a scene has, in the list's order.
 template <class List>
 std::vector<List> members_in(const ShaderInputs& inputs) {
-    return members_in(inputs, std::type_identity<List>{});
+    std::vector<List> found;
+    found.reserve(std::variant_size_v<List>);
+    for_each_class<List>([&]<class Member>(std::type_identity<Member>) {
+        if (Member::is_in(inputs.scene)) found.push_back(Member(inputs));
+    });
+    return found;
 }
 
 // The first of those that a scene has. Throws std::logic_error where there is none: a list whose scenes need a member

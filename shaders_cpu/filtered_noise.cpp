@@ -5,7 +5,6 @@
 
 #include "noise/bounds.h"
 #include "noise/reference.h"
-#include "shaders_cpu/soft_range.h"
 
 namespace strata::shaders {
 
@@ -19,8 +18,6 @@ double amplitude_for_variance_1(const FilteredNoiseParameters& p) {
     for (int k = 0; k < p.octaves; ++k, amplitude2 *= p.gain * p.gain) sum += amplitude2;
     return 1.0 / std::sqrt(kMeanNoise2 * sum);
 }
-
-double whole_share(double cells) { return 1.0 - cubic_step((cells - kWholeBelow) / (kGoneFrom - kWholeBelow) - 0.5); }
 
 // Of an octave of amplitude 1 along a stretch of so many cells: its slope times the stretch's own variance, 1/12 of its
 // square, as long as that is less than all.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "noise/fbm.h"
+#include "shaders_cpu/soft_range.h"
 
 namespace strata::shaders {
 
@@ -22,6 +23,11 @@ inline constexpr double kMeanGradient2 = 1.489;
 // An octave's waves are about two cells long, and few are shorter than one. Pixels up to half a cell can show them all,
 // by the sampling theorem, and the octave is whole; for pixels of a cell it is gone.
 inline constexpr double kWholeBelow = 0.5, kGoneFrom = 1.0;
+
+// As much of an octave as pixels of so many of its cells show, in [0,1].
+inline double whole_share(double cells) {
+    return 1.0 - cubic_step((cells - kWholeBelow) / (kGoneFrom - kWholeBelow) - 0.5);
+}
 
 struct FilteredNoiseParameters {
     int octaves;  // each twice as fine as the one before

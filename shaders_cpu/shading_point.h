@@ -11,6 +11,7 @@ struct ShadingPoint {
     double height = 0.0;                 // above the base plane or sphere
     double up_dot_normal = 1.0;          // "up" is the surface's own: away from its base
     glm::dvec3 to_light{0.0, 1.0, 0.0};  // of the light that is asked, at the time of the sample; materials ignore it
+    double time = 0.0;                   // seconds; where clouds drift
 
     // Of materials that look so near (DetailedMaterial in materials/all.h).
     double footprint = 0.0;       // side of a square as large as what a pixel sees of the surface, surface units

@@ -170,6 +170,8 @@ struct RenderReport {
     std::int64_t finished_pixels = 0;
     std::uint64_t rays = 0;  // samples of the picture
     std::uint64_t shadow_rays = 0;
+    std::uint64_t sky_rays = 0;    // where sky.light is "rays"
+    std::uint64_t water_rays = 0;  // mirrored and refracted by water
     std::uint64_t hits = 0;
     std::uint64_t unresolved_rays = 0;  // not settled within the step limit: drawn in magenta, or as shadow
     std::uint64_t noise_evaluations = 0;

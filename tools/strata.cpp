@@ -19,9 +19,9 @@
 #include "tools/cli/standard_output.h"
 
 // Each is a folder tools/NAME, in whose command.cpp add_command() adds it to the program.
-#define STRATA_COMMANDS(use)                                                                                        \
-    use(render) use(merge) use(scene_list) use(probe) use(strip) use(sweep) use(animate) use(figures) use(converge) \
-        use(stability) use(explain) use(bench)
+#define STRATA_COMMANDS(use)                                                                                    \
+    use(render) use(merge) use(farm) use(scene_list) use(probe) use(strip) use(sweep) use(animate) use(gallery) \
+        use(figures) use(converge) use(stability) use(explain) use(bench)
 
 #define STRATA_DECLARE(name)                 \
     namespace strata::tools::name {          \
@@ -121,7 +121,7 @@ int run(int argc, char** argv) {
 #define STRATA_ADD(name) strata::tools::name::add_command(commands);
     STRATA_COMMANDS(STRATA_ADD)
     // Commands added later would inherit it.
-    program.footer("'strata COMMAND --help' explains each. `strata render` without more renders the scene terrain.");
+    program.footer("'strata COMMAND --help' explains each. `strata render` without more renders the scene alpenglow.");
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& request) {

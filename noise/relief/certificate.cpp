@@ -45,6 +45,7 @@ class BoundNumbers : public ReliefFrame {
         return {low, high, a.size() * b.slope + b.size() * a.slope,
                 a.size() * b.bend + 2.0 * a.slope * b.slope + b.size() * a.bend};
     }
+    static Number product_of_positive(const Number& a, const Number& b) { return product(a, b); }
     // g(r)'' = g' r'' + g'' r'^2.
     template <class Curve>
     static Number curved(const Curve& curve, const Number& a) {
@@ -59,9 +60,11 @@ class BoundNumbers : public ReliefFrame {
         return {-peak(), peak(), bounds().gradient * across,
                 bounds().second * across * across + bounds().gradient * frequency * at.bend};
     }
+    Number octave(std::size_t k, const Domain& at, double by) const { return scaled(octave(k, at), by); }
 
     static Number begin_sum() { return {}; }
     static bool sees(Number&, std::size_t, const Domain&, double, double) { return true; }
+    static bool sees_stripe(Number&, std::size_t, const Domain&, double, double) { return true; }
     static bool sees_cells(Number&, double, const Domain&, double, double) { return true; }
     static bool sees_weighed(Number&, std::size_t, const Domain&, const Number&, double, double) { return true; }
     static void add(Number& sum, const Number& term) { sum = plus(sum, term); }

@@ -9,6 +9,8 @@
 //   steepest(lo, hi)        the largest |g'| on [lo, hi]
 // and may give
 //   span(lo, hi)            the least and the largest g, of any numbers (kHasSpan): bounds over large balls
+//   kLow, kHigh             between which g stays wherever it is asked for
+//   kRises                  g' is nowhere below 0
 //   value_unit(v), slope_unit(v)   what the roundings of g and g' are in proportion to, where that is more than
 //                           1 + |g| and 1 + |g'|
 // Bounds are those of exact arithmetic; rounding comes on top (src/trace/enclosure_rules-inl.h).
@@ -35,6 +37,8 @@ struct Span {
 // (1 - sqrt(v^2 + e^2))^2, v in [-1, 1]: a crest along v = 0 with a top of curvature 1/e, flat valleys at |v| = 1.
 // With r = sqrt(v^2 + e^2): g' = 2 v - 2 v / r and g'' = 2 - 2 e^2 / r^3, which rises with |v| from 2 - 2 / e < 0.
 struct RidgeCurve {
+    static constexpr double kLow = 0.0, kHigh = 1.0;
+
     double roundness;  // e, in (0, 1)
 
     template <class V>
@@ -55,8 +59,8 @@ struct RidgeCurve {
         return fixed<V>(2.0) - fixed<V>(2.0 * roundness * roundness) / (r * r * r);
     }
     template <class V>
-    HWY_INLINE V bend_up(V lo, V hi) const {
-        return greatest(second(radius(greatest(size(lo), size(hi)))), fixed<V>(0.0));
+    HWY_INLINE V bend_up(V, V) const {
+        return fixed<V>(2.0);  // A crest has less, which is not worth the root and the division.
     }
     template <class V>
     HWY_INLINE V bend_down(V lo, V hi) const {
@@ -78,16 +82,29 @@ struct RidgeCurve {
     }
 };
 
-// u - u^2/4 up to 2, then 1: a clip at 1 without a kink, for weights u >= 0.
+// u - u^2/4 up to 2, then 1, with u = scale v: a clip at 1 without a kink, for weights v >= 0.
 struct SoftClip {
+    static constexpr double kLow = 0.0, kHigh = 1.0;
+    static constexpr bool kRises = true;
+
+    double scale = 1.0;
+
     template <class V>
-    HWY_INLINE V value(V u) const {
-        const V below = least(u, fixed<V>(2.0));
-        return below - fixed<V>(0.25) * below * below;
+    HWY_INLINE V clipped(V v) const {
+        return least(fixed<V>(scale) * v, fixed<V>(2.0));
     }
     template <class V>
-    HWY_INLINE V slope(V u) const {
-        return fixed<V>(1.0) - fixed<V>(0.5) * least(u, fixed<V>(2.0));
+    HWY_INLINE V value(V v) const {
+        const V u = clipped(v);
+        return u - fixed<V>(0.25) * u * u;
+    }
+    template <class V>
+    HWY_INLINE V slope(V v) const {
+        return fixed<V>(scale) - fixed<V>(0.5 * scale) * clipped(v);
+    }
+    template <class V>
+    HWY_INLINE V slope_unit(V) const {
+        return fixed<V>(scale);
     }
     template <class V>
     HWY_INLINE V bend_up(V, V) const {
@@ -95,7 +112,7 @@ struct SoftClip {
     }
     template <class V>
     HWY_INLINE V bend_down(V lo, V) const {
-        return pick(lo < fixed<V>(2.0), fixed<V>(0.5), fixed<V>(0.0));
+        return pick(lo < fixed<V>(2.0 / scale), fixed<V>(0.5 * scale * scale), fixed<V>(0.0));
     }
     std::pair<double, double> range(double lo, double hi) const { return {value(lo), value(hi)}; }
     double steepest(double lo, double hi) const { return std::max(std::abs(slope(lo)), std::abs(slope(hi))); }
@@ -176,107 +193,11 @@ struct BillowCurve {
     double steepest(double lo, double hi) const { return slope(std::max(std::abs(lo), std::abs(hi))); }
 };
 
-// 3 t^2 - 2 t^3 of t = v clamped to [0, 1]: 0, then 1. g'' = 6 - 12 t falls within, and is 0 outside.
-struct SmoothStep {
-    static constexpr bool kHasSpan = true;
-
-    template <class V>
-    HWY_INLINE V clamped(V v) const {
-        return least(greatest(v, fixed<V>(0.0)), fixed<V>(1.0));
-    }
-    template <class V>
-    HWY_INLINE V value(V v) const {
-        const V t = clamped(v);
-        return t * t * (fixed<V>(3.0) - fixed<V>(2.0) * t);
-    }
-    template <class V>
-    HWY_INLINE V slope(V v) const {
-        const V t = clamped(v);
-        return fixed<V>(6.0) * t * (fixed<V>(1.0) - t);
-    }
-    template <class V>
-    HWY_INLINE V bend_up(V lo, V hi) const {
-        const V zero = fixed<V>(0.0);
-        return pick(zero < hi, greatest(fixed<V>(6.0) - fixed<V>(12.0) * greatest(lo, zero), zero), zero);
-    }
-    template <class V>
-    HWY_INLINE V bend_down(V lo, V hi) const {
-        const V zero = fixed<V>(0.0), one = fixed<V>(1.0);
-        return pick(lo < one, greatest(fixed<V>(12.0) * least(hi, one) - fixed<V>(6.0), zero), zero);
-    }
-    template <class V>
-    HWY_INLINE Span<V> span(V lo, V hi) const {
-        return {value(lo), value(hi)};
-    }
-    std::pair<double, double> range(double lo, double hi) const { return {value(lo), value(hi)}; }
-    double steepest(double lo, double hi) const { return lo < 0.5 && hi > 0.5 ? 1.5 : std::max(slope(lo), slope(hi)); }
-};
-
-// v + strength step (3 f^2 - 2 f^3 - f), f = v / step - floor(v / step): rises with v. g'' = strength (6 - 12 f) /
-// step.
-struct TerraceCurve {
-    static constexpr bool kHasSpan = true;
-
-    double step, strength;  // in [0, 1]
-
-    template <class V>
-    HWY_INLINE V part(V v) const {
-        const V steps = v * fixed<V>(1.0 / step);
-        return steps - whole(steps);
-    }
-    // f is off by the roundings of v / step.
-    template <class V>
-    HWY_INLINE V value_unit(V v) const {
-        return fixed<V>(step) + size(v);
-    }
-    template <class V>
-    HWY_INLINE V slope_unit(V v) const {
-        return fixed<V>(1.0) + fixed<V>(12.0 / step) * size(v);
-    }
-    template <class V>
-    HWY_INLINE V value(V v) const {
-        const V f = part(v);
-        return v + fixed<V>(strength * step) * (f * (f * (fixed<V>(3.0) - fixed<V>(2.0) * f) - fixed<V>(1.0)));
-    }
-    template <class V>
-    HWY_INLINE V slope(V v) const {
-        const V f = part(v);
-        return fixed<V>(1.0) + fixed<V>(strength) * (fixed<V>(6.0) * f * (fixed<V>(1.0) - f) - fixed<V>(1.0));
-    }
-    // Largest just after a step, if there is one within or near, else at lo.
-    template <class V>
-    HWY_INLINE V bend_up(V lo, V hi) const {
-        const V at_lo = fixed<V>(1.0) - fixed<V>(2.0) * part(lo - margin(lo));
-        const V most = pick(crosses(lo, hi), fixed<V>(1.0), greatest(at_lo, fixed<V>(0.0)));
-        return fixed<V>(6.0 * strength / step) * most;
-    }
-    template <class V>
-    HWY_INLINE V bend_down(V lo, V hi) const {
-        const V at_hi = fixed<V>(2.0) * part(hi + margin(hi)) - fixed<V>(1.0);
-        const V most = pick(crosses(lo, hi), fixed<V>(1.0), greatest(at_hi, fixed<V>(0.0)));
-        return fixed<V>(6.0 * strength / step) * most;
-    }
-    template <class V>
-    HWY_INLINE Span<V> span(V lo, V hi) const {
-        return {value(lo), value(hi)};
-    }
-    std::pair<double, double> range(double lo, double hi) const { return {value(lo), value(hi)}; }
-    double steepest(double, double) const { return 1.0 + 0.5 * strength; }
-
-  private:
-    template <class V>
-    HWY_INLINE V margin(V v) const {
-        return fixed<V>(0x1p-20) * (size(v) + fixed<V>(step));
-    }
-    template <class V>
-    HWY_INLINE auto crosses(V lo, V hi) const {
-        const V per = fixed<V>(1.0 / step);
-        return whole((lo - margin(lo)) * per) < whole((hi + margin(hi)) * per);
-    }
-};
-
 // (1 + v)^2 / 4 of v in [-1, 1]: what multiplies finer octaves, 0 in the deepest places and 1 on the highest.
 struct LiftCurve {
+    static constexpr double kLow = 0.0, kHigh = 1.0;
+    static constexpr bool kRises = true;
+
     template <class V>
     HWY_INLINE V value(V v) const {
         const V above = fixed<V>(0.5) + fixed<V>(0.5) * v;

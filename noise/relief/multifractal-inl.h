@@ -37,10 +37,10 @@ HWY_INLINE typename Numbers::Number multifractal(const Curve& curve, double feed
     for (std::size_t k = 0; k < a.octaves(); ++k) {
         const double per_weight = feedback > 0.0 ? amplitude_by_weight(feedback, a, k) : a.amplitude_from(k);
         if (!a.sees_weighed(sum, k, at, weight, a.amplitude_from(k), per_weight)) break;
-        auto term = a.curved(curve, a.scaled(a.octave(k, at), 1.0 / a.peak()));
+        auto term = a.curved(curve, a.octave(k, at, 1.0 / a.peak()));
         if (feedback > 0.0) {
-            term = a.product(weight, term);
-            weight = a.curved(SoftClip{}, a.scaled(term, feedback));
+            if (k > 0) term = a.product_of_positive(weight, term);
+            weight = a.curved(SoftClip{feedback}, term);
         }
         a.add(sum, a.scaled(term, a.amplitude(k)));
     }

@@ -47,7 +47,8 @@ struct ReliefJet {
 class Relief {
   public:
     // dimensions: 2 (the plane's x and z) or 3. The terms' inputs are names of terms before them, in the numbers that
-    // their nodes take; throws std::invalid_argument otherwise (the scene's checks say so with a place, before).
+    // their nodes take, and no point may take more than 100,000 readings of terms; throws std::invalid_argument
+    // otherwise.
     Relief(std::span<const ReliefTerm> terms, int dimensions);
 
     int dimensions() const { return dimensions_; }
@@ -63,7 +64,7 @@ class Relief {
     // Noise evaluations at a point where nothing is left out.
     std::size_t evaluations() const { return evaluations_; }
 
-    // The highest frequency of its octaves, in lattice cells a unit.
+    // The highest frequency of its octaves, in lattice cells a unit, and of what repeats.
     double finest_frequency() const;
 
     // The lowest one; 1 where there are no octaves.

@@ -9,21 +9,27 @@
 // Bounds, with k = 2 pi bands, from those of the fade u on [0,1]: u' <= 15/8, |u''| <= 5.7736, and
 // (1 - u) t^2 + u (1 - t)^2 <= 1/4:
 //   sum |grad W_c| <= (15/4) sqrt(2) = 5.304          (each axis: 2 u' times weights that add up to 1)
-//   sum |Hess W_c| <= 25.8, in the Frobenius norm: on the diagonal 2 |u''| = 11.55 each, beside it 4 u' u' = 14.07
-//   sum W_c |t - c|^2 <= 1/2, so sum W_c |t - c| <= 0.7072;  |t - c| <= sqrt(2), so sum |grad W_c| |t - c| <= 7.501
+//   sum W_c |t - c|^2 <= 1/2, so sum W_c |t - c| <= 0.7072
+// and, as branch and bound over the cell proves (tests/noise/test_stripe_bounds.cpp), with matrices by Frobenius' norm
+//   sum |Hess W_c| <= 19.9,   sum |grad W_c| |t - c| <= 3.76.
 // Hence |dC/dp| <= 5.304 + k, |dC/dd| <= 0.7072 k, and the second derivatives by p twice, by p and d, by d twice are at
-// most 25.8 + 2 * 5.304 k + k^2,  k (1 + 7.501 + 0.7072 k),  k^2 / 2.  The same holds for S.
+// most 19.9 + 2 * 5.304 k + k^2,  k (1 + 3.76 + 0.7072 k),  k^2 / 2.  The same holds for S.
 #pragma once
 
 namespace strata::noise {
 
+inline constexpr double kStripeSlopes = 5.304;     // sum |grad W_c|
+inline constexpr double kStripeBends = 19.9;       // sum |Hess W_c|
+inline constexpr double kStripeLevers = 3.76;      // sum |grad W_c| |t - c|
+inline constexpr double kStripeDistance = 0.7072;  // sum W_c |t - c|
+
 struct StripeBounds {
     explicit constexpr StripeBounds(double bands)
         : wave(6.283185307179587 * bands),
-          by_place(5.304 + wave),
-          by_direction(0.7072 * wave),
-          place_twice(25.8 + 10.608 * wave + wave * wave),
-          place_direction(wave * (8.501 + 0.7072 * wave)),
+          by_place(kStripeSlopes + wave),
+          by_direction(kStripeDistance * wave),
+          place_twice(kStripeBends + 2.0 * kStripeSlopes * wave + wave * wave),
+          place_direction(wave * (1.0 + kStripeLevers + kStripeDistance * wave)),
           direction_twice(0.5 * wave * wave) {}
 
     double wave;  // k

@@ -12,7 +12,14 @@ namespace strata::shaders {
 
 class DaylightSky {
   public:
+    static constexpr auto kName = "daylight sky";
+
     static bool is_in(const scene::Scene& scene) { return scene.sky.model == scene::SkyModel::daylight; }
+
+    static const char* why(const scene::Scene& scene) {
+        return is_in(scene) ? "what rays see that meet nothing: the Earth's air in sunlight, by tables of 0.2 s"
+                            : "sky.model is \"gradient\"";
+    }
 
     explicit DaylightSky(const ShaderInputs& inputs) : daylight_(inputs.daylight) {}
 

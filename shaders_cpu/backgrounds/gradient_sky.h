@@ -14,7 +14,14 @@ namespace strata::shaders {
 
 class GradientSky {
   public:
+    static constexpr auto kName = "gradient sky";
+
     static bool is_in(const scene::Scene& scene) { return scene.sky.model == scene::SkyModel::gradient; }
+
+    static const char* why(const scene::Scene& scene) {
+        return is_in(scene) ? "what rays see that meet nothing: sky.zenith and sky.horizon"
+                            : "sky.model is \"daylight\"";
+    }
 
     explicit GradientSky(const ShaderInputs& inputs) : sky_(inputs.scene.sky) {}
 

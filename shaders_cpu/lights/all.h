@@ -28,6 +28,14 @@ concept LightMember = ListMember<T> && requires(const T light, const ShadingPoin
     { light.on_white(point) } -> std::same_as<glm::vec3>;
 };
 
+// Whether any of the light comes to a place at all, whatever the surface hides; a member that knows where none does has
+// a function comes_to(x), and no shadow ray is cast there.
+template <LightMember T>
+bool comes_to(const T& light, const glm::dvec3& x) {
+    if constexpr (requires { light.comes_to(x); }) return light.comes_to(x);
+    return true;
+}
+
 template <LightMember... Members>
 using LightList = std::variant<Members...>;
 

@@ -28,9 +28,16 @@ namespace strata::shaders {
 
 class ChosenSun {
   public:
+    static constexpr auto kName = "sun";
     static constexpr LightLayer kLayer = LightLayer::sun;
 
     static bool is_in(const scene::Scene& scene) { return scene.sky.model == scene::SkyModel::gradient; }
+
+    static bool has_part(const scene::Scene& scene) { return scene.sun.intensity > 0.0; }
+    static const char* why(const scene::Scene& scene) {
+        if (!is_in(scene)) return "sky.model is \"daylight\"";
+        return has_part(scene) ? "sun.intensity is above 0" : "sun.intensity is 0: skylight alone";
+    }
 
     explicit ChosenSun(const ShaderInputs& inputs)
         : direction_(glm::normalize(inputs.scene.sun.direction)),

@@ -1,5 +1,5 @@
 // Light of the daylight sky, and of the ground below its horizon, on a surface. It arrives everywhere; sky.light =
-// "rays" is the alternative.
+// "rays" is the alternative. Clouds are in it at their mean, as if the sky had the same veil all over.
 //
 //   gain   1 is true, more is a photographer's fill   1
 //
@@ -19,23 +19,32 @@ namespace strata::shaders {
 
 class DaylightAmbient {
   public:
+    static constexpr auto kName = "daylight sky light";
     static constexpr LightLayer kLayer = LightLayer::sky;
 
     static bool is_in(const scene::Scene& scene) {
         return scene.sky.model == scene::SkyModel::daylight && !scene::needs_sky_rays(scene);
     }
 
+    static const char* why(const scene::Scene& scene) {
+        if (is_in(scene)) return "the light of the daylight sky, as if every hit saw all of the sky";
+        return scene::needs_sky_rays(scene) ? "sky rays bring it" : "sky.model is \"gradient\"";
+    }
+
     explicit DaylightAmbient(const ShaderInputs& inputs)
-        : daylight_(inputs.daylight), direction_(glm::normalize(inputs.scene.sun.direction)) {}
+        : daylight_(inputs.daylight), clouds_(inputs.clouds), direction_(glm::normalize(inputs.scene.sun.direction)) {}
 
     const glm::dvec3& direction() const { return direction_; }
     bool casts_shadows() const { return false; }
     double angular_radius() const { return 0.0; }
-    glm::vec3 on_white(const ShadingPoint& point) const { return daylight_->sky_on_white(point.normal); }
+    glm::vec3 on_white(const ShadingPoint& point) const {
+        return clouds_ == nullptr ? daylight_->sky_on_white(point.normal) : clouds_->sky_on_white(point.normal);
+    }
 
   private:
     const DaylightScene* daylight_;
-    glm::dvec3 direction_;  // of the sun
+    const CloudScene* clouds_;  // null: none
+    glm::dvec3 direction_;      // of the sun
 };
 
 }  // namespace strata::shaders

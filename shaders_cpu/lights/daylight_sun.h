@@ -1,4 +1,4 @@
-// The sun as the Earth's air leaves it, less what mountains out of the picture take.
+// The sun as the Earth's air leaves it, less what mountains out of the picture and clouds take.
 //
 //   [sky]
 //   model = "daylight"
@@ -21,12 +21,18 @@ namespace strata::shaders {
 
 class DaylightSun {
   public:
+    static constexpr auto kName = "daylight sun";
     static constexpr LightLayer kLayer = LightLayer::sun;
 
     static bool is_in(const scene::Scene& scene) { return scene.sky.model == scene::SkyModel::daylight; }
 
+    static const char* why(const scene::Scene& scene) {
+        return is_in(scene) ? "the sun's light through the air" : "sky.model is \"gradient\"";
+    }
+
     explicit DaylightSun(const ShaderInputs& inputs)
         : daylight_(inputs.daylight),
+          clouds_(inputs.clouds),
           direction_(glm::normalize(inputs.scene.sun.direction)),
           casts_shadows_(scene::needs_shadow_rays(inputs.scene)),
           radius_(glm::radians(inputs.scene.sun.angular_radius_deg)),
@@ -35,14 +41,19 @@ class DaylightSun {
     const glm::dvec3& direction() const { return direction_; }
     bool casts_shadows() const { return casts_shadows_; }
     double angular_radius() const { return radius_; }
+    bool comes_to(const glm::dvec3& x) const { return daylight_->sun_over_ridges(x) > 0.0f; }
 
     glm::vec3 on_white(const ShadingPoint& point) const {
         const auto n_dot_sun = static_cast<float>(std::max(glm::dot(point.normal, point.to_light), 0.0));
-        return daylight_->sun_on_white(point.height) * (n_dot_sun * daylight_->sun_over_ridges(point.x) * disc_);
+        const glm::vec3 light =
+            daylight_->sun_on_white(point.height) * (n_dot_sun * daylight_->sun_over_ridges(point.x) * disc_);
+        if (clouds_ == nullptr || n_dot_sun == 0.0f) return light;
+        return light * clouds_->sunlight(point.x, point.to_light, point.time);
     }
 
   private:
     const DaylightScene* daylight_;
+    const CloudScene* clouds_;  // null: none
     glm::dvec3 direction_;
     bool casts_shadows_;
     double radius_;  // radians

@@ -20,10 +20,16 @@ namespace strata::shaders {
 
 class GradientAmbient {
   public:
+    static constexpr auto kName = "sky light";
     static constexpr LightLayer kLayer = LightLayer::sky;
 
     static bool is_in(const scene::Scene& scene) {
         return scene.sky.model == scene::SkyModel::gradient && !scene::needs_sky_rays(scene);
+    }
+
+    static const char* why(const scene::Scene& scene) {
+        if (is_in(scene)) return "the light of the two colours, as if every hit saw all of the sky";
+        return scene::needs_sky_rays(scene) ? "sky rays bring it" : "sky.model is \"daylight\"";
     }
 
     explicit GradientAmbient(const ShaderInputs& inputs)

@@ -49,18 +49,29 @@ LayersMaterial::LayersMaterial(const scene::Scene& scene)
     for (const scene::GroundLayer& layer : scene.ground) layers_.emplace_back(layer);
 }
 
-// From the last layer down, as far as anything is left to see.
-SurfaceLook LayersMaterial::look(const ShadingPoint& point) const {
-    const GroundPoint ground = ground_point(point);
-    glm::dvec3 reflectance(0.0);
-    double roughness = 0.0, left = 1.0;
+// see(layer, share) from the last layer down, as far as anything is left to see.
+template <class See>
+void LayersMaterial::for_each_share(const GroundPoint& ground, const See& see) const {
+    double left = 1.0;
     for (std::size_t i = layers_.size(); i-- > 0 && left > 0.0;) {
         const double share = i == 0 ? left : left * layers_[i].mask(ground);
         left -= share;
-        if (share == 0.0) continue;
+        if (share != 0.0) see(i, share);
+    }
+}
+
+void LayersMaterial::shares(const ShadingPoint& point, std::span<float> shares) const {
+    for_each_share(ground_point(point), [&](std::size_t i, double share) { shares[i] = static_cast<float>(share); });
+}
+
+SurfaceLook LayersMaterial::look(const ShadingPoint& point) const {
+    const GroundPoint ground = ground_point(point);
+    glm::dvec3 reflectance(0.0);
+    double roughness = 0.0;
+    for_each_share(ground, [&](std::size_t i, double share) {
         reflectance += layers_[i].albedo(ground) * share;
         roughness += layers_[i].roughness * share;
-    }
+    });
     return {glm::vec3(reflectance), roughness};
 }
 

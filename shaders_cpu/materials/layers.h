@@ -27,6 +27,8 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "shaders_cpu/closed_list.h"
@@ -37,7 +39,14 @@ namespace strata::shaders {
 
 class LayersMaterial {
   public:
+    static constexpr auto kName = "layers of ground";
+
     static bool is_in(const scene::Scene& scene) { return !scene.ground.empty(); }
+
+    static std::string why(const scene::Scene& scene) {
+        if (!is_in(scene)) return "no [[ground]]: colour by [material]";
+        return std::to_string(scene.ground.size()) + " of [[ground]], by height, slope, facing, noise and beds";
+    }
 
     explicit LayersMaterial(const ShaderInputs& inputs) : LayersMaterial(inputs.scene) {}
     explicit LayersMaterial(const scene::Scene& scene);
@@ -48,6 +57,9 @@ class LayersMaterial {
     // The mix of the layers' reflectances and roughnesses by their shares, which sum to 1: what a layer leaves
     // uncovered is shared out among those below.
     SurfaceLook look(const ShadingPoint& point) const;
+
+    // These shares, of each layer.
+    void shares(const ShadingPoint& point, std::span<float> shares) const;
 
     glm::vec3 reflectance(const ShadingPoint& point) const { return look(point).reflectance; }
 
@@ -61,6 +73,9 @@ class LayersMaterial {
         explicit Layer(const scene::GroundLayer& layer);
         glm::dvec3 albedo(const GroundPoint& point) const;
     };
+
+    template <class See>
+    void for_each_share(const GroundPoint& ground, const See& see) const;
 
     bool is_rough_;
     std::vector<Layer> layers_;

@@ -26,7 +26,13 @@ namespace strata::shaders {
 
 class TerrainMaterial {
   public:
+    static constexpr auto kName = "terrain material";
+
     static bool is_in(const scene::Scene& /*scene*/) { return true; }
+
+    static const char* why(const scene::Scene& scene) {
+        return scene.ground.empty() ? "colour by height and slope: [material]" : "[[ground]] stands for [material]";
+    }
 
     explicit TerrainMaterial(const ShaderInputs& inputs) : TerrainMaterial(inputs.scene.material) {}
     explicit TerrainMaterial(const scene::Material& material);

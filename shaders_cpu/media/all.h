@@ -4,6 +4,7 @@
 #pragma once
 
 #include "shaders_cpu/closed_list.h"
+#include "shaders_cpu/media/clouds.h"
 #include "shaders_cpu/media/daylight_air.h"
 #include "shaders_cpu/media/fog.h"
 #include "shaders_cpu/media/haze.h"
@@ -24,6 +25,6 @@ concept MediumMember = ListMember<T> && requires(const T medium, const MediumRay
 template <MediumMember... Members>
 using MediumList = std::variant<Members...>;
 
-using Medium = MediumList<Haze, DaylightAir, Fog>;
+using Medium = MediumList<Haze, DaylightAir, CloudsBehind, Fog, CloudsBefore>;
 
 }  // namespace strata::shaders

@@ -21,9 +21,14 @@ namespace strata::shaders {
 
 class DaylightAir {
   public:
+    static constexpr auto kName = "daylight air";
     static constexpr bool kBeforeBackground = false;
 
     static bool is_in(const scene::Scene& scene) { return scene.sky.model == scene::SkyModel::daylight; }
+
+    static const char* why(const scene::Scene& scene) {
+        return is_in(scene) ? "the air between, by sky.visibility_km" : "sky.model is \"gradient\"";
+    }
 
     explicit DaylightAir(const ShaderInputs& inputs) : daylight_(inputs.daylight) {}
 

@@ -40,6 +40,7 @@ Fog::Fog(const ShaderInputs& inputs)
       waves_(waves_of(inputs.scene.fog, metres_)),
       to_sun_(glm::normalize(inputs.scene.sun.direction)),
       daylight_(inputs.daylight),
+      clouds_(inputs.clouds),
       haze_(Haze::is_in(inputs.scene) ? std::optional<Haze>(inputs) : std::nullopt),
       sun_(inputs.scene.sun.colour * (inputs.scene.sun.intensity * std::numbers::inv_pi)),
       sky_(0.5f * (ambient_light(inputs.scene.sky, 1.0) + ambient_light(inputs.scene.sky, -1.0))) {}
@@ -102,18 +103,28 @@ double Fog::depth(const MediumRay& ray) const {
     return sum;
 }
 
+float Fog::phase(const glm::dvec3& direction) const {
+    return static_cast<float>(std::numbers::pi * henyey_greenstein(glm::dot(direction, to_sun_), fog_.forward));
+}
+
+// Radiance of white that faces the sun, which the air takes from as at a height.
+glm::vec3 Fog::sun_at(const glm::dvec3& x, double height) const {
+    if (daylight_ == nullptr) return sun_;
+    return daylight_->sun_on_white(height) * daylight_->sun_over_ridges(x);
+}
+
 // Radiance of fog so thick that nothing is seen through it: albedo 1, scattered once from the sun, evenly from the sky.
-glm::vec3 Fog::source(const MediumRay& ray) const {
+glm::vec3 Fog::sun_source(const MediumRay& ray) const {
     const double level = fog_.level_m / metres_;
-    const auto phase =
-        static_cast<float>(std::numbers::pi * henyey_greenstein(glm::dot(ray.direction, to_sun_), fog_.forward));
-    if (daylight_ == nullptr) return sun_ * phase + sky_;
-    const double s = std::min(ray.distance, kFarthest / metres_);
-    glm::dvec3 x = ray.origin + s * ray.direction;
+    glm::dvec3 x = ray.origin + std::min(ray.distance, kFarthest / metres_) * ray.direction;
     x.y = std::min(x.y, level);
-    const glm::vec3 sun = daylight_->sun_on_white(level) * daylight_->sun_over_ridges(x);
+    return sun_at(x, level) * phase(ray.direction);
+}
+
+glm::vec3 Fog::sky_source() const {
+    if (daylight_ == nullptr) return sky_;
     const glm::dvec3 up{0.0, 1.0, 0.0};
-    return sun * phase + 0.5f * (daylight_->sky_on_white(up) + daylight_->sky_on_white(-up));
+    return 0.5f * (daylight_->sky_on_white(up) + daylight_->sky_on_white(-up));
 }
 
 // What is between the eye and a place in the fog.
@@ -133,8 +144,43 @@ MediumSegment Fog::along(const MediumRay& ray) const {
     }
     const double scattered = 1.0 - clear;
     if (scattered <= 0.0) return {};
-    const glm::vec3 seen = air(ray, way / scattered / metres_).over(source(ray));
-    return {.transmittance = glm::vec3(static_cast<float>(clear)), .inscatter = seen * static_cast<float>(scattered)};
+    const glm::vec3 source = fog_.shafts ? sky_source() : sun_source(ray) + sky_source();
+    const glm::vec3 seen = air(ray, way / scattered / metres_).over(source);
+    return {.transmittance = glm::vec3(static_cast<float>(clear)),
+            .inscatter = seen * static_cast<float>(scattered) + ray.shaft};
+}
+
+// How far into a piece a share of its depth lies. The depth from its lower end up to a height h is
+// 1 - exp(-h / fall), of a factor; u is the whole height in falls, of which rounding may find more than there is.
+double Fog::way_within(double climb, const Piece& piece, double share) const {
+    const double u = std::abs(climb) * piece.length / fog_.fall_m;
+    if (u < 1e-8) return share * piece.length;
+    const double from_low = climb > 0.0 ? share : 1.0 - share;
+    const double part = std::min(-std::log1p(from_low * std::expm1(-u)) / u, 1.0);
+    return (climb > 0.0 ? part : 1.0 - part) * piece.length;
+}
+
+// The depth before it has the density exp(-depth) / scattered, whose inverse gives it; then it is followed piece by
+// piece.
+Fog::Shaft Fog::shaft(const MediumRay& ray, double u) const {
+    const std::array<Piece, kPieces + 2> all = pieces(ray);
+    std::array<double, kPieces + 2> depths{};
+    double whole = 0.0;
+    for (std::size_t i = 0; i < all.size(); ++i) whole += depths[i] = depth_of(ray, all[i]);
+    const double scattered = -std::expm1(-whole);
+    if (scattered <= 0.0) return {};
+    double left = -std::log1p(-u * scattered), way = 0.0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (depths[i] <= 0.0) continue;
+        way = all[i].begin + way_within(ray.direction.y, all[i], std::min(left / depths[i], 1.0));
+        if (left <= depths[i]) break;
+        left -= depths[i];
+    }
+    way /= metres_;
+    const glm::dvec3 x = ray.origin + way * ray.direction;
+    glm::vec3 sun = sun_at(x, x.y) * (phase(ray.direction) * static_cast<float>(scattered));
+    if (clouds_ != nullptr && sun != glm::vec3(0.0f)) sun *= clouds_->sunlight(x, to_sun_, ray.time);
+    return {way, air(ray, way).transmittance * sun};
 }
 
 }  // namespace strata::shaders

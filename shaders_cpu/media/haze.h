@@ -20,10 +20,16 @@ namespace strata::shaders {
 
 class Haze {
   public:
+    static constexpr auto kName = "haze";
     static constexpr bool kBeforeBackground = false;
 
     static bool is_in(const scene::Scene& scene) {
         return scene.sky.model == scene::SkyModel::gradient && scene.sky.haze_distance > 0.0;
+    }
+
+    static const char* why(const scene::Scene& scene) {
+        if (is_in(scene)) return "a hit's colour fades into the sky behind it";
+        return scene.sky.haze_distance > 0.0 ? "sky.model is \"daylight\"" : "sky.haze_distance is 0";
     }
 
     explicit Haze(const ShaderInputs& inputs) : sky_(inputs.scene.sky) {}

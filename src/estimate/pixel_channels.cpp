@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "src/integrate/cryptomatte.h"
+
 namespace strata::estimate {
 
 namespace {
@@ -74,7 +76,7 @@ void set(const ChannelSet& channels, ChannelFilter filter, const PixelSamples& s
          const Value& value) {
     for (const ChannelSet::Entry& entry : channels.entries()) {
         if (entry.channel->filter != filter) continue;
-        for (std::size_t i = entry.first; i < entry.first + entry.count; ++i) {
+        for (std::size_t i = entry.first; i < entry.first + entry.sampled; ++i) {
             pixel[i] = static_cast<float>(value(Column{samples, channels.values(), i}));
         }
     }
@@ -84,9 +86,7 @@ void set(const ChannelSet& channels, ChannelFilter filter, const PixelSamples& s
 
 bool has_filter(const EstimatorSettings& settings, ChannelFilter filter) {
     if (filter != ChannelFilter::variance) return true;
-    const bool is_told =
-        settings.kind == scene::EstimatorKind::random || settings.kind == scene::EstimatorKind::stratified;
-    return is_told && settings.N > 1;
+    return scene::row_of(settings.kind).tells_variance() && settings.N > 1;
 }
 
 void filter_own(const ChannelSet& channels, const PixelSamples& samples, std::span<float> pixel) {
@@ -100,6 +100,15 @@ void filter_own(const ChannelSet& channels, const PixelSamples& samples, std::sp
 
 void filter_weighted(const ChannelSet& channels, const PixelSamples& samples, std::span<float> pixel) {
     set(channels, ChannelFilter::picture, samples, pixel, weighted);
+    set(channels, ChannelFilter::ranks, samples, pixel, weighted);
+    order_ranks(channels, pixel);
+}
+
+void order_ranks(const ChannelSet& channels, std::span<float> pixel) {
+    for (const ChannelSet::Entry& entry : channels.entries()) {
+        if (entry.channel->filter != ChannelFilter::ranks) continue;
+        integrate::rank_coverages(channels.ground_ids(), pixel.subspan(entry.first, entry.count));
+    }
 }
 
 }  // namespace strata::estimate

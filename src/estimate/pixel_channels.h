@@ -24,11 +24,14 @@ struct PixelSamples {
     std::span<const float> values;   // ChannelSet::values() a sample
 };
 
-// Sets the pixel's values of the channels whose filter is not `picture`. A value depends on the samples in their order
-// alone: not on tiles, crop or threads.
+// Sets the pixel's values of the channels whose filter is neither `picture` nor `ranks`. A value depends on the samples
+// in their order alone: not on tiles, crop or threads.
 void filter_own(const integrate::ChannelSet& channels, const PixelSamples& samples, std::span<float> pixel);
 
-// Sets those whose filter is `picture`: sums by the samples' weights, in double, as equations (2) and (3) have it.
+// Sets those that are: sums by the samples' weights, in double, as equations (2) and (3) have it.
 void filter_weighted(const integrate::ChannelSet& channels, const PixelSamples& samples, std::span<float> pixel);
+
+// Of those whose filter is `ranks`, from the weighted values to what the pixel holds.
+void order_ranks(const integrate::ChannelSet& channels, std::span<float> pixel);
 
 }  // namespace strata::estimate

@@ -127,8 +127,7 @@ void outline(Canvas& canvas, const Box& box, const Colour& colour, int thickness
 void check_canvas_format(const std::filesystem::path& path) {
     if (format_of(path) != Format::exr) return;
     throw ImageError(
-        fmt::format("cannot write \"{}\": a picture with text and frames is no radiance; allowed: .png, "
-                    ".jpg, .tif",
+        fmt::format("cannot write \"{}\": a picture with text and frames is no radiance; allowed: .png, .jpg, .tif",
                     path.string()));
 }
 

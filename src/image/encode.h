@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/image/colour_out.h"
@@ -32,6 +33,7 @@ struct WriteOptions {
     ExrFormat exr_format = ExrFormat::half;
     ExrLayout exr_layout = ExrLayout::automatic;
     std::vector<std::string> exr_extra{};  // channels of 32 bits beside R, G and B, as "steps.Y"; of streams alone
+    std::vector<std::pair<std::string, std::string>> exr_attributes{};  // of the header, for who reads those channels
     std::optional<FrameRate> frames_per_second{};    // that an EXR says, where it is a frame of an animation
     bool keeps_not_finite = false;                   // in an EXR in floating point: of a picture of another program
     std::function<void(const std::string&)> warn{};  // of what a whole file lost: radiance beyond the largest half

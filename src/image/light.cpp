@@ -38,8 +38,8 @@ std::optional<Transfer> transfer_of_cicp(const std::filesystem::path& path) {
         case kPq:
         case kHlg:
             throw ImageError(fmt::format(
-                "cannot read \"{}\": its values are those of high dynamic range video (PQ or HLG); allowed: "
-                "linear, sRGB, or a power",
+                "cannot read \"{}\": its values are those of high dynamic range video (PQ or HLG); allowed: linear, "
+                "sRGB, or a power",
                 path.string()));
         default:
             return Transfer{};
@@ -107,8 +107,7 @@ ColourChannels colour_channels(const std::filesystem::path& path, const OIIO::Im
         channels.rgb = {first, first, first};
     } else if (colours == 2 || grey >= 0) {
         throw ImageError(
-            fmt::format("cannot read \"{}\": its channels are {}; allowed: grey or RGB, each with alpha or "
-                        "without",
+            fmt::format("cannot read \"{}\": its channels are {}; allowed: grey or RGB, each with alpha or without",
                         path.string(), fmt::join(spec.channelnames, ", ")));
     }
     const bool is_colour = std::ranges::find(channels.rgb, spec.alpha_channel) != channels.rgb.end();

@@ -68,6 +68,7 @@ void set_meaning(OIIO::ImageSpec& spec, const WriteOptions& options) {
     // x and y of red, green, blue and white: ITU-R BT.709, the primaries of sRGB.
     constexpr std::array<float, 8> kRec709{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f};
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, kRec709.size()), kRec709.data());
+    for (const auto& [name, value] : options.exr_attributes) spec.attribute(name, value);
     if (!options.frames_per_second) return;
     const std::array<int, 2> rate{options.frames_per_second->numerator, options.frames_per_second->denominator};
     spec.attribute("framesPerSecond", OIIO::TypeRational, rate.data());

@@ -112,8 +112,7 @@ fs::path find_font(std::span<const fs::path> candidates) {
         if (fs::is_regular_file(path, error)) return path;
     }
     throw ImageError(
-        fmt::format("the font for labels is not there: Debian has it in the package fonts-dejavu-core "
-                    "(looked for {})",
+        fmt::format("the font for labels is not there: Debian has it in the package fonts-dejavu-core (looked for {})",
                     candidates.empty() ? "" : candidates.front().string()));
 }
 

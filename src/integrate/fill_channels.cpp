@@ -9,6 +9,10 @@ namespace {
 void fill_sample(const SampleView& view, std::size_t sample, const SampleOut& out) {
     float* values = &out.values[sample * out.channels->values()];
     for (const ChannelSet::Entry& entry : out.channels->entries()) {
+        if (entry.channel->fill != nullptr) {
+            entry.channel->fill(view, {values + entry.first, entry.sampled});
+            continue;
+        }
         const glm::vec3 value = entry.channel->value(view);
         for (std::size_t i = 0; i < entry.count; ++i) values[entry.first + i] = value[static_cast<glm::length_t>(i)];
     }

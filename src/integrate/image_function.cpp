@@ -1,5 +1,7 @@
 #include "src/integrate/image_function.h"
 
+#include <algorithm>
+
 namespace strata::integrate {
 
 const char* name_of(Phase phase) {
@@ -20,6 +22,8 @@ const char* name_of(Phase phase) {
             return "sky rays";
         case Phase::bounces:
             return "bounces";
+        case Phase::water:
+            return "water";
         case Phase::shading:
             return "shading";
     }
@@ -35,16 +39,13 @@ PhaseCost& PhaseCost::operator+=(const PhaseCost& other) {
 }
 
 Counters& Counters::operator+=(const Counters& other) {
-    rays += other.rays;
-    shadow_rays += other.shadow_rays;
-    sky_rays += other.sky_rays;
-    hits += other.hits;
-    unresolved_rays += other.unresolved_rays;
-    noise_evaluations += other.noise_evaluations;
-    executed_lanes += other.executed_lanes;
-    steps += other.steps;
+    for (const auto& [name, member] : kCounters) this->*member += other.*member;
     for (std::size_t i = 0; i < kPhases; ++i) phases[i] += other.phases[i];
     return *this;
+}
+
+bool same_counts(const Counters& a, const Counters& b) {
+    return std::ranges::all_of(kCounters, [&](const CounterRow& row) { return a.*row.member == b.*row.member; });
 }
 
 }  // namespace strata::integrate

@@ -6,6 +6,7 @@
 #include <concepts>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -16,8 +17,8 @@
 namespace strata::integrate {
 
 // Where the work of a ray-cast surface is done.
-enum class Phase { beams, windows, rays, normals, sun_beams, shadows, sky_rays, bounces, shading };
-inline constexpr std::size_t kPhases = 9;
+enum class Phase { beams, windows, rays, normals, sun_beams, shadows, sky_rays, bounces, water, shading };
+inline constexpr std::size_t kPhases = 10;
 
 // "sun beams".
 const char* name_of(Phase phase);
@@ -37,6 +38,7 @@ struct Counters {
     std::uint64_t rays = 0;  // image-function samples evaluated; counted by the renderer, all else by image functions
     std::uint64_t shadow_rays = 0;
     std::uint64_t sky_rays = 0;
+    std::uint64_t water_rays = 0;  // mirrored and refracted
     std::uint64_t hits = 0;
     std::uint64_t unresolved_rays = 0;
     std::uint64_t noise_evaluations = 0;
@@ -46,6 +48,26 @@ struct Counters {
 
     Counters& operator+=(const Counters& other);
 };
+
+// Every count of them by its name, which sums, comparisons, files and tables go over.
+struct CounterRow {
+    const char* name;
+    std::uint64_t Counters::*member;
+};
+inline constexpr CounterRow kCounters[] = {{"rays", &Counters::rays},
+                                           {"shadow_rays", &Counters::shadow_rays},
+                                           {"sky_rays", &Counters::sky_rays},
+                                           {"water_rays", &Counters::water_rays},
+                                           {"hits", &Counters::hits},
+                                           {"unresolved_rays", &Counters::unresolved_rays},
+                                           {"noise_evaluations", &Counters::noise_evaluations},
+                                           {"executed_lanes", &Counters::executed_lanes},
+                                           {"steps", &Counters::steps}};
+static_assert(sizeof(Counters) == std::size(kCounters) * sizeof(std::uint64_t) + sizeof(Counters::phases),
+              "a row for each count");
+
+// Whether all of these counts are equal.
+bool same_counts(const Counters& a, const Counters& b);
 
 // Positions in pixels in the whole frame (u right, v down, pixel (0,0) has its centre at (0.5, 0.5)); t in seconds.
 // The three spans have equal length.

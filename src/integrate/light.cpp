@@ -1,5 +1,7 @@
 #include "src/integrate/light.h"
 
+#include <limits>
+
 #include "src/integrate/hit_shading.h"
 #include "src/integrate/phase_meter.h"
 #include "src/integrate/sky_rays.h"
@@ -10,11 +12,22 @@ namespace {
 
 // Lists are asked which member they hold once a chunk, not once a sample.
 
+// Rays from the ground to the sky see clouds at their mean, which costs no noise and is none. What the eye sees of
+// clouds is a medium's affair.
+void put_clouds_before(const SurfaceSetup& setup, SurfaceChunk& chunk, std::size_t i) {
+    const shaders::MediumRay ray{chunk.rays[i].origin, chunk.view_of(i), std::numeric_limits<double>::infinity()};
+    chunk.radiance[i] = setup.clouds->mean_along(ray).over(chunk.radiance[i]);
+}
+
 void shade_misses(const SurfaceSetup& setup, SurfaceChunk& chunk) {
+    const bool is_sky_ray = !chunk.weight.empty();
     const auto shade_by = [&](const auto& background) {
         for (std::size_t i = 0; i < chunk.rays.size(); ++i) {
             const trace::HitState state = chunk.hits[i].state;
-            if (state == trace::HitState::miss) chunk.radiance[i] = background.radiance(chunk.view_of(i));
+            if (state == trace::HitState::miss) {
+                chunk.radiance[i] = background.radiance(chunk.view_of(i));
+                if (is_sky_ray && setup.clouds) put_clouds_before(setup, chunk, i);
+            }
             if (state == trace::HitState::unresolved) chunk.radiance[i] = kUnresolvedRadiance;
         }
     };
@@ -39,7 +52,8 @@ void add_light(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& chunk) {
     const auto add = [&](const auto& light) {
         for (std::size_t i = 0; i < chunk.sample.size(); ++i) {
             if (!visibility.empty() && visibility[i] == 0.0f) continue;
-            chunk.light[i] += light_on_white(light, chunk, l, i);
+            const glm::vec3 on_white = light_on_white(light, chunk, l, i);
+            chunk.light[i] += chunk.arrives.empty() ? on_white : on_white * chunk.arriving(l, i);
         }
     };
     std::visit(add, setup.lights[l].light);

@@ -17,7 +17,8 @@ inline shaders::ShadingPoint shading_point(const SurfaceChunk& chunk, std::size_
     return {.x = chunk.x[hit],
             .normal = glm::dvec3(chunk.normal[hit]),
             .height = chunk.height[hit],
-            .up_dot_normal = chunk.up_dot_normal[hit]};
+            .up_dot_normal = chunk.up_dot_normal[hit],
+            .time = chunk.time_of(chunk.sample[hit])};
 }
 
 // From chunk.visibility to chunk.light.

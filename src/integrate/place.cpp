@@ -81,6 +81,7 @@ void place_rays(const SurfaceSetup& setup, const SampleBatch& samples, SurfaceCh
     const bool spins = setup.placement.moves();
     chunk.rays.resize(count);
     chunk.view.resize(spins ? count : 0);
+    chunk.time.resize(setup.tells_time ? count : 0);
     chunk.directions_a_light = spins ? count : 1;
     chunk.to_light.resize(setup.lights.size() * chunk.directions_a_light);
     chunk.ids.resize(setup.draws_light() ? count : 0);
@@ -97,6 +98,7 @@ void place_rays(const SurfaceSetup& setup, const SampleBatch& samples, SurfaceCh
         }
         trace::Ray& ray = chunk.rays[i];
         aim(setup, now, samples.u[sample], samples.v[sample], ray);
+        if (!chunk.time.empty()) chunk.time[i] = time;
         if (!chunk.ids.empty()) chunk.ids[i] = samples.id(sample);
         if (!spins) continue;
         chunk.view[i] = trace::Placement::direction_to_local(setup.placement.resting_orientation(),

@@ -1,9 +1,11 @@
 #include "src/integrate/sample_view.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "src/integrate/hit_shading.h"
 #include "src/integrate/light.h"
+#include "src/integrate/medium.h"
 #include "src/integrate/place.h"
 
 namespace strata::integrate {
@@ -31,6 +33,12 @@ std::vector<SampleView::Cost> SampleView::costs_of(const SurfaceSetup& setup, co
         cost.steps += chunk.shadow.hits[i].steps;
         cost.noise_evaluations += chunk.shadow.hits[i].noise_evaluations;
     }
+    for (std::size_t i = 0; i < chunk.shaft.hits.size(); ++i) {
+        Cost& cost = costs[chunk.shaft.owner[i]];
+        cost.steps += chunk.shaft.hits[i].steps;
+        cost.noise_evaluations += chunk.shaft.hits[i].noise_evaluations;
+    }
+    if (chunk.depth == 0 && !chunk.water.empty()) add_costs_of_water(setup, chunk, costs);
     if (!setup.has_sky_rays || chunk.depth > setup.scene.sky.bounces) return costs;
     const std::vector<Cost> of_sky_rays = costs_of(setup, *chunk.next);
     for (std::size_t i = 0; i < chunk.sample.size(); ++i) {
@@ -40,18 +48,41 @@ std::vector<SampleView::Cost> SampleView::costs_of(const SurfaceSetup& setup, co
     return costs;
 }
 
-// Hits are in the samples' order.
+void SampleView::add_costs_of_water(const SurfaceSetup& setup, const SurfaceChunk& chunk, std::vector<Cost>& costs) {
+    const auto add = [&](std::size_t water, std::uint64_t steps, std::uint64_t evaluations) {
+        Cost& cost = costs[chunk.water[water].sample];
+        cost.steps += steps;
+        cost.noise_evaluations += evaluations;
+    };
+    for (const SurfaceChunk* rays : {chunk.mirrored.get(), chunk.bed.get()}) {
+        const std::vector<Cost> each = costs_of(setup, *rays);
+        for (std::size_t i = 0; i < each.size(); ++i) add(i, each[i].steps, each[i].noise_evaluations);
+    }
+    const ShadowRays& shadow = chunk.face->shadow;
+    for (std::size_t i = 0; i < shadow.hits.size(); ++i)
+        add(chunk.face->sample[shadow.owner[i]], shadow.hits[i].steps, shadow.hits[i].noise_evaluations);
+}
+
+// Hits are in the samples' order, and so is what ended on water.
 void SampleView::next() {
     if (is_hit()) ++hit_;
+    if (is_water()) ++water_;
     if (++sample_ < chunk_->radiance.size()) radiance_ = chunk_->radiance[sample_];
 }
 
-double SampleView::distance() const {
-    return is_hit() ? chunk_->surface_hits[hit_].s * setup_->placement.scale() : kNothing;
+bool SampleView::is_water() const {
+    return chunk_ != nullptr && water_ < chunk_->water.size() && chunk_->water[water_].sample == sample_;
 }
 
+double SampleView::way() const {
+    if (is_water()) return chunk_->hits[sample_].s;
+    return is_hit() ? chunk_->surface_hits[hit_].s : std::numeric_limits<double>::infinity();
+}
+
+double SampleView::distance() const { return is_hit() || is_water() ? way() * setup_->placement.scale() : kNothing; }
+
 double SampleView::depth() const {
-    if (!is_hit()) return kNothing;
+    if (!is_hit() && !is_water()) return kNothing;
     return distance() * glm::dot(direction(), camera_at(*setup_, time()).view_axis());
 }
 
@@ -60,13 +91,15 @@ glm::dvec3 SampleView::direction() const {
 }
 
 glm::dvec3 SampleView::position() const {
-    if (!is_hit()) return glm::dvec3(0.0);
-    return setup_->placement.point_to_world(setup_->placement.orientation(time()), chunk_->x[hit_]);
+    if (!is_hit() && !is_water()) return glm::dvec3(0.0);
+    const glm::dvec3& x = is_water() ? chunk_->water[water_].x : chunk_->x[hit_];
+    return setup_->placement.point_to_world(setup_->placement.orientation(time()), x);
 }
 
 glm::dvec3 SampleView::normal() const {
-    if (!is_hit()) return glm::dvec3(0.0);
-    return setup_->placement.orientation(time()) * glm::dvec3(chunk_->normal[hit_]);
+    if (!is_hit() && !is_water()) return glm::dvec3(0.0);
+    const glm::dvec3 normal = is_water() ? chunk_->water[water_].normal : glm::dvec3(chunk_->normal[hit_]);
+    return setup_->placement.orientation(time()) * normal;
 }
 
 glm::vec3 SampleView::reflectance() const {
@@ -95,15 +128,24 @@ double SampleView::slope_mask() const {
     return std::visit(mask, setup_->material);
 }
 
+void SampleView::ground_shares(std::span<float> shares) const {
+    std::ranges::fill(shares, 0.0f);
+    if (!is_hit()) return;
+    const auto find = [&](const auto& material) {
+        if constexpr (requires { material.shares({}, shares); })
+            material.shares(detailed_point(*setup_, *chunk_, hit_), shares);
+    };
+    std::visit(find, setup_->material);
+}
+
 bool SampleView::is_miss() const { return chunk_ != nullptr && chunk_->hits[sample_].state == trace::HitState::miss; }
 
 // look(segment) of each medium between the eye and the hit, or before the background.
 template <class Look>
 void SampleView::look_through_media(const Look& look) const {
-    const double distance = is_hit() ? chunk_->surface_hits[hit_].s : std::numeric_limits<double>::infinity();
-    const shaders::MediumRay ray{chunk_->rays[sample_].origin, chunk_->view_of(sample_), distance};
+    const shaders::MediumRay ray = medium_ray(*setup_, *chunk_, sample_, way());
     const auto look_through = [&]<class Member>(const Member& member) {
-        if (is_hit() || Member::kBeforeBackground) look(member.along(ray));
+        if (is_hit() || is_water() || Member::kBeforeBackground) look(member.along(ray));
     };
     for (const shaders::Medium& medium : setup_->media) std::visit(look_through, medium);
 }
@@ -119,7 +161,8 @@ glm::vec3 SampleView::sky_ray_light(shaders::LightLayer layer) const {
             static_cast<float>(std::visit([](const auto& sky) { return sky.gain(); }, setup_->background));
         return next.radiance[hit_] * (gain * weight);
     }
-    const bool is_lit = state == trace::HitState::hit && next.depth <= setup_->scene.sky.bounces;
+    const bool is_ground = state == trace::HitState::hit || state == trace::HitState::water;
+    const bool is_lit = is_ground && next.depth <= setup_->scene.sky.bounces;
     return layer == shaders::LightLayer::bounce && is_lit ? next.radiance[hit_] * weight : glm::vec3(0.0f);
 }
 
@@ -141,18 +184,30 @@ glm::vec3 SampleView::reflected(shaders::LightLayer layer) const {
 
 glm::vec3 SampleView::inscatter() const {
     glm::vec3 seen(0.0f);
-    if (!is_hit() && !is_miss()) return seen;
+    if (!is_hit() && !is_water() && !is_miss()) return seen;
     look_through_media([&](const shaders::MediumSegment& segment) { seen = segment.over(seen); });
     return seen;
 }
 
+glm::vec3 SampleView::water() const {
+    if (!is_water()) return glm::vec3(0.0f);
+    glm::vec3 seen = chunk_->water[water_].radiance;
+    look_through_media([&](const shaders::MediumSegment& segment) { seen *= segment.transmittance; });
+    return seen;
+}
+
 glm::vec3 SampleView::background() const {
-    if (is_hit()) return glm::vec3(0.0f);
+    if (is_hit() || is_water()) return glm::vec3(0.0f);
     if (!is_miss()) return radiance_;
     const glm::dvec3& direction = chunk_->view_of(sample_);
     glm::vec3 seen = std::visit([&](const auto& member) { return member.radiance(direction); }, setup_->background);
     look_through_media([&](const shaders::MediumSegment& segment) { seen *= segment.transmittance; });
     return seen;
+}
+
+double SampleView::cloud_opacity() const {
+    if (!is_hit() && !is_water() && !is_miss()) return 0.0;
+    return setup_->clouds ? setup_->clouds->opacity(medium_ray(*setup_, *chunk_, sample_, way())) : 0.0;
 }
 
 double SampleView::sun_visibility() const {
@@ -171,7 +226,8 @@ double SampleView::sun_visibility() const {
 std::optional<glm::dvec2> SampleView::next_place() const {
     const double now = time(), next = now + 1.0 / setup_->scene.shutter.fps;
     const trace::Camera camera = camera_at(*setup_, next);
-    if (!is_hit()) return camera.on_screen(direction());
+    if (!is_hit() && !is_water()) return camera.on_screen(direction());
+    if (is_water()) return camera.on_screen(position() - camera.position());
     const glm::dvec3 x = chunk_->x[hit_] + setup_->field.noise_shift(now) - setup_->field.noise_shift(next);
     const glm::dmat3 orientation = setup_->placement.orientation(next);
     return camera.on_screen(setup_->placement.point_to_world(orientation, x) - camera.position());

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "src/integrate/image_function.h"
@@ -29,6 +30,9 @@ class SampleView {
     // Whether its ray met the surface. What follows is in the world, at the sample's own time.
     bool is_hit() const { return chunk_ != nullptr && hit_ < chunk_->sample.size() && chunk_->sample[hit_] == sample_; }
 
+    // Whether it ended on level water, of which what is said of a hit's place is said, too.
+    bool is_water() const;
+
     // Of the hit, from the eye: along the ray, and along the camera's view axis. kNothing for other samples.
     double distance() const;
     double depth() const;
@@ -44,13 +48,22 @@ class SampleView {
     double height_mask() const;
     double slope_mask() const;
 
+    // What each layer of ground covers of the hit, in [0,1]: they sum to 1. 0 for other samples.
+    void ground_shares(std::span<float> shares) const;
+
     // The light of one layer that the hit reflects, and what the media before it add, as the eye sees it.
     // 0 for other samples.
     glm::vec3 reflected(shaders::LightLayer layer) const;
     glm::vec3 inscatter() const;
 
+    // Radiance of a sample that ended on water, as the eye sees it; 0 for other samples.
+    glm::vec3 water() const;
+
     // Radiance of a sample that hits nothing; 0 for hits.
     glm::vec3 background() const;
+
+    // What clouds before the hit or the sky hide of it, in [0,1].
+    double cloud_opacity() const;
 
     // 1: the sun's direction is before the hit and free; 0: not, and for other samples.
     double sun_visibility() const;
@@ -74,9 +87,12 @@ class SampleView {
     // Of each sample of a chunk, with what follows from its hit.
     static std::vector<Cost> costs_of(const SurfaceSetup& setup, const SurfaceChunk& chunk);
 
+    static void add_costs_of_water(const SurfaceSetup& setup, const SurfaceChunk& chunk, std::vector<Cost>& costs);
+
     double time() const { return batch_->t[chunk_->order[sample_]]; }
     glm::dvec3 direction() const;
     bool is_miss() const;
+    double way() const;  // to the hit or water along the ray, surface units
     std::optional<glm::dvec2> next_place() const;
     glm::vec3 sky_ray_light(shaders::LightLayer layer) const;
     template <class Look>
@@ -86,7 +102,8 @@ class SampleView {
     const SampleBatch* batch_ = nullptr;
     const SurfaceChunk* chunk_ = nullptr;
     std::size_t sample_ = 0;
-    std::size_t hit_ = 0;  // the first that is not of a sample before
+    std::size_t hit_ = 0;    // the first that is not of a sample before
+    std::size_t water_ = 0;  // the same of the water's
     glm::vec3 radiance_;
     std::vector<Cost> costs_;  // of each sample
 };

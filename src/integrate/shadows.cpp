@@ -6,6 +6,7 @@
 #include "src/integrate/directions.h"
 #include "src/integrate/phase_meter.h"
 #include "src/integrate/trace_rays.h"
+#include "src/integrate/water.h"
 #include "src/trace/shadow_ray.h"
 
 namespace strata::integrate {
@@ -26,7 +27,11 @@ double shadow_spacing(const SurfaceSetup& setup, const SurfaceChunk& chunk, cons
 
 // Beams are for many rays that stand close together, as those from what the eye sees do and no others.
 bool is_shortened(const SurfaceSetup& setup, std::size_t l, const SurfaceChunk& chunk) {
-    return setup.lights[l].beams && chunk.depth == 0;
+    return setup.lights[l].beams && chunk.depth == 0 && chunk.arrives.empty();
+}
+
+bool light_comes_to(const SurfaceSetup& setup, std::size_t l, const SurfaceChunk& chunk, std::size_t hit) {
+    return std::visit([&](const auto& light) { return shaders::comes_to(light, chunk.x[hit]); }, setup.lights[l].light);
 }
 
 // A point of the convex bound that faces the light sees it.
@@ -38,23 +43,21 @@ void make_shadow_rays(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& ch
         const glm::dvec3 normal(chunk.normal[i]), to_light = chunk.to_light_of_hit(l, i);
         const trace::Hit& hit = chunk.surface_hits[i];
         if (glm::dot(normal, to_light) <= 0.0 || hit.on_bound) continue;
+        if (!light_comes_to(setup, l, chunk, i)) {
+            chunk.visibility_of(l)[i] = 0.0f;
+            continue;
+        }
         shadow.rays.push_back(trace::shadow_ray(chunk.ray_of_hit(i), hit, normal, to_light));
         shadow.owner.push_back(static_cast<std::uint32_t>(i));
         if (by_beams) shadow.spacing.push_back(shadow_spacing(setup, chunk, to_light, i));
     }
 }
 
-void cast_shadows_of(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& chunk, Counters& counters) {
-    PhaseMeter meter(counters);
+// Follows those from `first` on: whose rays meet something does not see the light.
+void follow_shadow_rays(const SurfaceSetup& setup, std::size_t l, std::size_t first, SurfaceChunk& chunk,
+                        Counters& counters, trace::TraceCounters& traced) {
     ShadowRays& shadow = chunk.shadow;
-    const std::size_t first = shadow.rays.size();
-    make_shadow_rays(setup, l, chunk);
     const std::span<trace::Ray> rays = std::span(shadow.rays).subspan(first);
-    trace::TraceCounters traced;
-    if (is_shortened(setup, l, chunk)) setup.lights[l].beams->shorten(rays, shadow.spacing, shadow.sunlit, traced);
-    meter.book(Phase::sun_beams, traced);
-
-    traced = {};
     shadow.hits.resize(shadow.rays.size());
     trace_rays(setup, rays, std::span(shadow.hits).subspan(first), traced);
     const std::span<float> visibility = chunk.visibility_of(l);
@@ -64,6 +67,28 @@ void cast_shadows_of(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& chu
         if (state == trace::HitState::unresolved) ++counters.unresolved_rays;
     }
     counters.shadow_rays += rays.size();
+}
+
+void cast_shadows_of(const SurfaceSetup& setup, std::size_t l, SurfaceChunk& chunk, Counters& counters) {
+    PhaseMeter meter(counters);
+    ShadowRays& shadow = chunk.shadow;
+    const std::size_t first = shadow.rays.size();
+    make_shadow_rays(setup, l, chunk);
+    trace::TraceCounters traced;
+    if (is_shortened(setup, l, chunk)) {
+        const std::span<trace::Ray> rays = std::span(shadow.rays).subspan(first);
+        setup.lights[l].beams->shorten(rays, shadow.spacing, shadow.sunlit, traced);
+    }
+    meter.book(Phase::sun_beams, traced);
+
+    traced = {};
+    const std::size_t over_water = shadow.rays.size();
+    if (!chunk.arrives.empty()) stop_at_face(setup, std::span(shadow.rays).subspan(first));
+    follow_shadow_rays(setup, l, first, chunk, counters, traced);
+    if (!chunk.arrives.empty()) {
+        go_on_over_water(setup, l, first, chunk);
+        follow_shadow_rays(setup, l, over_water, chunk, counters, traced);
+    }
     meter.book(Phase::shadows, traced);
 }
 

@@ -9,10 +9,12 @@
 #include <numbers>
 
 #include "src/integrate/directions.h"
+#include "src/integrate/inherit.h"
 #include "src/integrate/light.h"
 #include "src/integrate/phase_meter.h"
 #include "src/integrate/resolve.h"
 #include "src/integrate/trace_rays.h"
+#include "src/integrate/water.h"
 #include "src/trace/shadow_ray.h"
 
 namespace strata::integrate {
@@ -49,30 +51,6 @@ SkyDirection draw(const Background& background, const glm::dvec3& normal, const 
     }
 }
 
-// What the samples of `next` have of those whose hits they start from.
-void inherit(const SurfaceSetup& setup, const SurfaceChunk& chunk, SurfaceChunk& next) {
-    const std::size_t count = chunk.sample.size();
-    const auto take = [&](const auto& from, auto& to) {
-        to.resize(from.empty() ? 0 : count);
-        for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[chunk.sample[i]];
-    };
-    take(chunk.ids, next.ids);
-    take(chunk.to_sky, next.to_sky);
-    next.depth = chunk.depth + 1;
-    if (chunk.directions_a_light == 1) {
-        next.directions_a_light = 1;
-        next.to_light = chunk.to_light;
-        return;
-    }
-    const std::size_t lights = setup.lights.size();
-    next.directions_a_light = count;
-    next.to_light.resize(lights * count);
-    for (std::size_t l = 0; l < lights; ++l) {
-        for (std::size_t i = 0; i < count; ++i)
-            next.to_light[l * count + i] = chunk.to_light[l * chunk.directions_a_light + chunk.sample[i]];
-    }
-}
-
 // A ray of weight 0, or from the convex bound, meets nothing and is not followed.
 void aim_sky_rays(const SurfaceSetup& setup, const SurfaceChunk& chunk, SurfaceChunk& next) {
     const std::size_t count = chunk.sample.size();
@@ -96,15 +74,21 @@ void aim_sky_rays(const SurfaceSetup& setup, const SurfaceChunk& chunk, SurfaceC
     for (std::size_t i = 0; i < next.view.size(); ++i) next.view[i] = next.to_sky[i] * next.rays[i].direction;
 }
 
-// Light of the rays that met nothing, and of those that met what is lit.
+glm::vec3 sky_ray_light(const SurfaceChunk& next, std::size_t i, float gain, bool hits_are_lit) {
+    const trace::HitState state = next.hits[i].state;
+    if (next.weight[i] == 0.0f) return glm::vec3(0.0f);
+    if (state == trace::HitState::miss) return next.radiance[i] * (gain * next.weight[i]);
+    const bool is_lit = state == trace::HitState::hit || state == trace::HitState::water;
+    return is_lit && hits_are_lit ? next.radiance[i] * next.weight[i] : glm::vec3(0.0f);
+}
+
+// Light of the rays that met nothing, and of those that met what is lit, or water.
 void add_up(const SurfaceSetup& setup, const SurfaceChunk& next, SurfaceChunk& chunk) {
     const auto gain = static_cast<float>(std::visit([](const auto& sky) { return sky.gain(); }, setup.background));
     const bool hits_are_lit = next.depth <= setup.scene.sky.bounces;
     for (std::size_t i = 0; i < chunk.sample.size(); ++i) {
-        const trace::HitState state = next.hits[i].state;
-        if (next.weight[i] == 0.0f) continue;
-        if (state == trace::HitState::miss) chunk.light[i] += next.radiance[i] * (gain * next.weight[i]);
-        if (state == trace::HitState::hit && hits_are_lit) chunk.light[i] += next.radiance[i] * next.weight[i];
+        const glm::vec3 light = sky_ray_light(next, i, gain, hits_are_lit);
+        chunk.light[i] += chunk.arrives.empty() ? light : light * chunk.arriving(setup.lights.size(), i);
     }
 }
 
@@ -141,12 +125,15 @@ void gather_sky(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counte
     SurfaceChunk& next = *chunk.next;
     Counters work;
     PhaseMeter meter(work);
-    inherit(setup, chunk, next);
+    inherit(setup, chunk, chunk.sample, next);
+    next.depth = chunk.depth + 1;
     aim_sky_rays(setup, chunk, next);
+    stop_at_water(setup, next);
     meter.book(Phase::shading);
     trace::TraceCounters traced;
     next.hits.resize(next.rays.size());
     trace_rays(setup, next.rays, next.hits, traced);
+    find_water(setup, next);
     meter.book(Phase::rays, traced);
     if (next.depth <= setup.scene.sky.bounces) {
         resolve_hits(setup, next, work);
@@ -155,6 +142,7 @@ void gather_sky(const SurfaceSetup& setup, SurfaceChunk& chunk, Counters& counte
         forget_hits(next, work);
         shade(setup, next, work);
     }
+    mirror_open_sky(setup, next);
     add_up(setup, next, chunk);
     book(work, next.rays.size(), counters);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shaders_cpu/shading_point.h"
+#include "shaders_cpu/water_waves.h"
 #include "src/accel/sun_beams.h"
 #include "src/accel/zones.h"
 #include "src/sample/dimensions.h"
@@ -42,6 +43,16 @@ struct OpenRays {
     std::vector<trace::Hit> hits;
 };
 
+// Where a ray ends on level water, and what is seen there.
+struct WaterHit {
+    std::uint32_t sample;  // of the chunk's, by index
+    glm::dvec3 x, normal;  // of the waves that the sample tells
+    shaders::WaveSlopes waves;
+    glm::dvec3 facet;    // the normal of what it sees of the finer ones
+    double reflected;    // share of light, by the facet
+    glm::vec3 radiance;  // towards the eye
+};
+
 // One each thread; its memory is reused from chunk to chunk, for fresh memory would cost as much as the shading.
 struct SurfaceChunk {
     std::span<const std::uint32_t> order;  // which samples of the batch these are
@@ -49,6 +60,8 @@ struct SurfaceChunk {
     // place_rays: of each sample, in the surface's coordinates.
     std::vector<trace::Ray> rays;
     std::vector<glm::dvec3> view;  // the rays' directions, as the sky lies; empty where those are the rays' own
+
+    std::vector<double> time;  // of each, seconds; empty where nobody asks
 
     // The same: towards each light, of unit length. Light l's from to_light[l * directions_a_light] on, of each sample
     // or one of all.
@@ -64,6 +77,9 @@ struct SurfaceChunk {
     std::vector<trace::WindowedRays> windowed;
     std::vector<std::span<const accel::Zone>> zones;  // of each of `windowed`
 
+    // stop_at_water: of each ray, how far it is to the water; infinite: does not come to it. Empty: there is none.
+    std::vector<double> to_water;
+
     // trace_rays: of each sample.
     std::vector<trace::Hit> hits;
     trace::WindowTracerWork window_work;
@@ -74,6 +90,10 @@ struct SurfaceChunk {
     std::vector<trace::Hit> surface_hits;
     std::vector<glm::dvec3> x, noise_shift;  // the latter empty where nothing drifts
     std::vector<glm::vec3> normal;           // outward, of unit length
+
+    // light_bed, of hits under water: what of light l is left at them and is worth from there to the eye, from
+    // [l * hits] on, and last, for l = lights, of sky rays. Empty: all of it.
+    std::vector<glm::vec3> arrives;
 
     // light_hits.
     std::vector<glm::dvec3> to_disc;  // a point of light l from the hits: from [l * hits] on; empty: lights are points
@@ -88,6 +108,17 @@ struct SurfaceChunk {
     std::unique_ptr<SurfaceChunk> next;
     std::vector<float> weight;  // of each sample, if it is such a ray
 
+    // cast_shafts: rays from the fog to the sun, whose owners are samples, and the sunlight that the fog sends along
+    // each sample's way to the eye. Empty: the fog has no shafts.
+    ShadowRays shaft;
+    std::vector<glm::vec3> in_fog;
+
+    // light_water: of rays that end there, in the samples' order, the chunks of their mirrored and refracted rays, and
+    // one of the water itself as a surface.
+    std::vector<WaterHit> water;
+    std::unique_ptr<SurfaceChunk> mirrored, bed, face;
+
+    const glm::vec3& arriving(std::size_t l, std::size_t i) const { return arrives[l * sample.size() + i]; }
     const glm::dvec3& view_of(std::size_t i) const { return view.empty() ? rays[i].direction : view[i]; }
     const glm::dvec3& to_light_of_hit(std::size_t l, std::size_t i) const {
         if (!to_disc.empty()) return to_disc[l * sample.size() + i];
@@ -103,6 +134,7 @@ struct SurfaceChunk {
     bool sees_light(std::size_t l, std::size_t i) const {
         return visibility.empty() || visibility[l * sample.size() + i] != 0.0f;
     }
+    double time_of(std::size_t i) const { return time.empty() ? 0.0 : time[i]; }
     const trace::Ray& ray_of_hit(std::size_t i) const { return rays[sample[i]]; }
 
     // What is filled hit by hit would be copied over and over while it grows: 5 to 8 % of a render.

@@ -9,6 +9,7 @@
 #include "src/integrate/place.h"
 #include "src/integrate/resolve.h"
 #include "src/integrate/trace_rays.h"
+#include "src/integrate/water.h"
 
 namespace strata::integrate {
 
@@ -26,9 +27,12 @@ void integrate_surface(const SurfaceSetup& setup, const SampleBatch& samples, co
     while (next_chunk(work.batch, chunk)) {
         place_rays(setup, samples, chunk, counters);
         cull_rays(setup, work.batch, chunk, counters);
+        stop_at_water(setup, chunk);
         trace_rays(setup, chunk, counters);
+        find_water(setup, chunk);
         resolve_hits(setup, chunk, counters);
         light_hits(setup, chunk, counters);
+        light_water(setup, chunk, counters);
         apply_medium(setup, chunk, counters);
         fill_channels(setup, samples, chunk, out);
         put_back(chunk, out.radiance, counters);

@@ -1,5 +1,5 @@
 // From a batch of samples to their radiance, chunk by chunk through the stages of place.h, cull.h, trace_rays.h,
-// resolve.h, light.h, medium.h and fill_channels.h.
+// resolve.h, light.h, water.h, medium.h and fill_channels.h.
 #pragma once
 
 #include "src/integrate/cull.h"

@@ -22,6 +22,12 @@ std::optional<shaders::DaylightScene> daylight_of(const SurfaceSetup& setup) {
         setup.placement.point_to_local(axes, setup.path.at(middle_of_shutter(scene)).position));
 }
 
+std::optional<shaders::CloudScene> clouds_of(const SurfaceSetup& setup) {
+    if (!setup.daylight || !scene::needs_clouds(setup.scene)) return {};
+    return std::make_optional<shaders::CloudScene>(setup.scene, *setup.daylight,
+                                                   setup.daylight->tables().sun_direction());
+}
+
 // Of one direction and one instant of the surface.
 std::optional<accel::SunBeams> beams_of(const SurfaceSetup& setup, const glm::dvec3& to_light, double angular_radius,
                                         bool casts_shadows) {
@@ -64,13 +70,17 @@ SurfaceSetup::SurfaceSetup(const scene::Scene& picture, Tracer used_tracer, std:
       path(scene.camera),
       camera(path.at(0.0), scene.film),
       daylight(daylight_of(*this)),
+      clouds(clouds_of(*this)),
       material(shaders::member_in<shaders::Material>(shader_inputs())),
       background(shaders::member_in<shaders::Background>(shader_inputs())),
       lights(lights_of(*this, shader_inputs())),
       media(shaders::members_in<shaders::Medium>(shader_inputs())),
+      water(scene::needs_water(scene) ? std::make_optional<shaders::Water>(scene) : std::nullopt),
       has_shadows(std::ranges::any_of(lights, &SceneLight::casts_shadows)),
       has_discs(std::ranges::any_of(lights, [](const SceneLight& light) { return light.angular_radius > 0.0; })),
-      has_sky_rays(scene::needs_sky_rays(scene)) {
+      has_sky_rays(scene::needs_sky_rays(scene)),
+      has_shafts(scene::needs_fog_shafts(scene)),
+      tells_time(clouds && scene::clouds_drift(scene)) {
     if (tracer == Tracer::fast) screen_beams.emplace(scene, path, placement, field);
 }
 

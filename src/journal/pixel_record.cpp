@@ -69,4 +69,11 @@ std::vector<PixelPart> read_pixel_parts(PayloadReader& payload, const PixelHead&
     return parts;
 }
 
+PixelRecord read_pixel_record(Bytes payload) {
+    PayloadReader reader(payload);
+    PixelRecord record{read_pixel_head(reader), {}};
+    record.parts = read_pixel_parts(reader, record.head);
+    return record;
+}
+
 }  // namespace strata::journal

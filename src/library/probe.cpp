@@ -67,8 +67,8 @@ struct Probe::Data {
         for (const noise::Octave& octave : image.field().octaves()) finest = std::max(finest, octave.frequency);
         if (finest * distance <= scene::kMostCells) return;
         throw Error(
-            fmt::format("{}: {:.3g} surface units from surface.origin, allowed: up to {:.3g}, where double "
-                        "tells the finest octave's cells apart",
+            fmt::format("{}: {:.3g} surface units from surface.origin, allowed: up to {:.3g}, where double tells the "
+                        "finest octave's cells apart",
                         name, distance, scene::kMostCells / finest));
     }
 

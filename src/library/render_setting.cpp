@@ -5,7 +5,7 @@
 #include "src/library/scene_data.h"
 #include "src/library/translate.h"
 #include "src/parallel/processors.h"
-#include "src/scene/enum_names.h"
+#include "src/render/meter.h"
 
 namespace strata {
 
@@ -14,6 +14,7 @@ namespace {
 constexpr int kMostThreads = 1024;  // each has buffers of its own
 constexpr int kLargestTile = 1024;  // progress comes by the tile
 constexpr double kLeastRmse = 1e-9, kMostRmse = 1e6;
+constexpr render::PassWords kWords{"passes", "target_rmse", "time_limit", "or a smaller window"};
 
 int in_range(const char* name, int value, int least, int most) {
     if (value >= least && value <= most) return value;
@@ -37,32 +38,9 @@ render::PassGoal goal_of(const RenderOptions& options, scene::EstimatorKind esti
                                 kLeastRmse, kMostRmse));
     }
     if (!(limit_s >= 0.0)) throw Error(fmt::format("time_limit: out of range ({} s), allowed: 0 s or more", limit_s));
-    const bool is_open_ended = rmse > 0.0 || limit_s > 0.0;
-    const int otherwise = is_open_ended ? render::kMostPasses : 1;
-    const int passes = in_range("passes", options.passes.value_or(otherwise), 1, render::kMostPasses);
-    if (passes > 1 && !render::passes_differ(estimator)) {
-        throw Error(fmt::format(
-            "{}: passes of the estimator '{}' are all alike, their mean is no better than one; allowed with passes: "
-            "jittered, stratified, random, sobol, shared, shared-sobol",
-            rmse > 0.0      ? "target_rmse"
-            : is_open_ended ? "time_limit"
-                            : "passes",
-            scene::name_of(estimator)));
-    }
-    return {passes, rmse, limit_s};
-}
-
-// Of several passes, while they are rendered: the sum, the pass in work and the one before it.
-constexpr double kBytesAPixelOfPasses = 24 + 13 + 13;
-
-void check_memory(const film::Rect& window, const render::PassGoal& goal) {
-    if (goal.passes == 1) return;
-    const double needed = kBytesAPixelOfPasses * window.width() * window.height();
-    const double present = static_cast<double>(parallel::available_memory_bytes());
-    if (needed <= present) return;
-    throw Error(fmt::format(
-        "passes: {}x{} pixels need {:.1f} GB of memory, there are {:.1f} GB; allowed: one pass, or a smaller window",
-        window.width(), window.height(), needed / 1e9, present / 1e9));
+    render::PassRequest request{.target_rmse = rmse, .time_limit_s = limit_s};
+    if (options.passes) request.passes = in_range("passes", *options.passes, 1, render::kMostPasses);
+    return render::goal_of(request, estimator, kWords);
 }
 
 }  // namespace
@@ -70,9 +48,11 @@ void check_memory(const film::Rect& window, const render::PassGoal& goal) {
 RenderSetting::RenderSetting(const Scene& scene, const RenderOptions& options) {
     translated([&] {
         scene_ = checked(scene);
+        render::take_exposure(scene_);
         window_ = window_of(options.window, scene_.film);
         goal_ = goal_of(options, scene_.sampling.estimator);
-        check_memory(window_, goal_);
+        render::check_memory(goal_, estimate::estimator_settings(scene_), window_, parallel::available_memory_bytes(),
+                             kWords);
         tracer_ = options.tracer == Tracer::fast ? integrate::Tracer::fast : integrate::Tracer::reference;
         options_.threads = in_range("threads", options.threads, 0, kMostThreads);
         options_.tile = in_range("tile", options.tile, 1, kLargestTile);
@@ -106,6 +86,8 @@ RenderReport report_of(const render::ProgressiveResult& result) {
     report.finished_pixels = result.render.finished_pixels;
     report.rays = counters.rays;
     report.shadow_rays = counters.shadow_rays;
+    report.sky_rays = counters.sky_rays;
+    report.water_rays = counters.water_rays;
     report.hits = counters.hits;
     report.unresolved_rays = counters.unresolved_rays;
     report.noise_evaluations = counters.noise_evaluations;

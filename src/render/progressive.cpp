@@ -178,12 +178,6 @@ ProgressiveResult ProgressiveRender::run() {
 
 }  // namespace
 
-bool passes_differ(scene::EstimatorKind kind) { return !scene::row_of(kind).is_grid(); }
-
-int bytes_a_pixel_of_passes(const estimate::Estimator& estimator) {
-    return estimator.has_random_weights() ? kWeightedPassBytes : kPassBytes;
-}
-
 ProgressiveResult render_progressively(const integrate::ImageFunction& image,
                                        const estimate::EstimatorSettings& settings, const film::Rect& window,
                                        const PassGoal& goal, const RenderOptions& options, PassKeeper* keeper) {

@@ -4,32 +4,16 @@
 // Pass p is the plain render with the seed sample::pass_seed(seed, p), and a pixel of K passes is their mean, each
 // counting by its sum of weights there (pass_sum.h), summed in double in the order of the passes: a pure function of
 // (image, settings, K), whatever made it stop at K. One pass is the plain render, to the last bit.
-//
-// Memory, in bytes a pixel from the second pass on: the pass in work and the one before it 13 each, the sum 24. Where
-// weights are random they take 8 in each of the three, and the error's moments 16 (kPassBytes, kWeightedPassBytes).
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include "src/render/error_estimate.h"
+#include "src/render/pass_goal.h"
 #include "src/render/pass_keeper.h"
 #include "src/render/render.h"
 
 namespace strata::render {
-
-inline constexpr int kMostPasses = 1'000'000;
-
-inline constexpr int kPassBytes = 2 * 13 + 24;
-inline constexpr int kWeightedPassBytes = kPassBytes + 3 * 8 + 16;
-
-// When to stop. Several goals: at the first that is reached.
-struct PassGoal {
-    int passes = 1;          // at most so many, in [1,kMostPasses]
-    double target_rmse = 0;  // until ErrorEstimate::high is at most this, which takes four passes or more; 0: no target
-    double time_limit_s = 0;  // no pass that is predicted to end later than this after the start; the first always is
-                              // done; 0: no limit
-};
 
 enum class PassesEnd { passes, target, time, cancelled, not_finite };
 
@@ -42,13 +26,6 @@ struct ProgressiveResult {
     std::optional<int> predicted_passes;  // for the target, as seen from the first pair of passes
     double predicted_seconds = 0;         // of the whole, as seen then; 0: never predicted
 };
-
-// Whether another pass of this estimator differs from the first. The grids of `none`, `super` and `uniform` do not:
-// averaging would not lower their error.
-bool passes_differ(scene::EstimatorKind kind);
-
-// Bytes that each pixel takes while several passes are added up.
-int bytes_a_pixel_of_passes(const estimate::Estimator& estimator);
 
 // Throws std::invalid_argument for what render() refuses, and for more than one pass where passes do not differ.
 // on_progress tells of the whole: of the predicted passes, or of the time limit where that comes first. A keeper, which

@@ -5,33 +5,15 @@
 #include <cstddef>
 #include <utility>
 
-#include "src/estimate/render_accumulators.h"
 #include "src/render/fill_slot.h"
 #include "src/render/render_context.h"
+#include "src/render/shared_plan.h"
 
 namespace strata::render {
 
 namespace {
 
-constexpr std::size_t kRunBytes = 8u << 20;  // of samples in the buffer
-constexpr std::int64_t kRunRows = 48;        // bounds the rows of pixels in work
 constexpr int kStripColumns = 64;
-
-// A channel beside colour that is weighted as colour is: it has sums of its own, so that colour without it takes no
-// more work or memory.
-struct Layer {
-    // From a block's values, of which each sample has `stride`, to those of the run from its sample `offset` on.
-    void gather(std::span<const float> block, std::size_t stride, std::size_t offset) {
-        for (std::size_t i = 0; i * stride < block.size(); ++i) {
-            std::copy_n(block.begin() + static_cast<std::ptrdiff_t>(i * stride + entry.first), entry.count,
-                        &values[offset + i].x);
-        }
-    }
-
-    integrate::ChannelSet::Entry entry;
-    std::vector<glm::vec3> values;  // of the run's samples
-    estimate::PixelAccumulators accumulators;
-};
 
 class SharedRender {
   public:
@@ -57,6 +39,7 @@ class SharedRender {
     void add_up(const Run& run);
     void add_to_strip(const Run& run, int x0, int x1);
     void finish_rows(int rows_end, int x0, int x1);
+    void order_ranks(const film::Rect& part, film::Film& film) const;
     void note_rows(int rows_end);
     template <class Action>
     void for_each_strip(int rows_end, const Action& action);
@@ -72,39 +55,10 @@ class SharedRender {
     std::vector<float> fraction_u_, fraction_v_;  // of the run's samples
     std::vector<glm::vec3> radiance_;
     estimate::PixelAccumulators accumulators_;
-    std::vector<Layer> layers_;
+    std::vector<SharedLayer> layers_;
     int finished_end_;   // pixel rows above are in the film
     int given_end_ = 0;  // strips above are given away
 };
-
-std::int64_t cells_in_a_run(const film::Rect& cells, std::size_t samples_a_cell, std::size_t layers) {
-    const std::size_t bytes = samples_a_cell * (2 * sizeof(float) + (1 + layers) * sizeof(glm::vec3));
-    const std::int64_t total = std::int64_t{1} * cells.width() * cells.height();
-    const std::int64_t fitting = static_cast<std::int64_t>(std::max<std::size_t>(1, kRunBytes / bytes));
-    return std::min({fitting, kRunRows * cells.width(), total});
-}
-
-std::vector<integrate::ChannelSet::Entry> layer_entries(const integrate::ChannelSet& channels) {
-    std::vector<integrate::ChannelSet::Entry> entries;
-    for (const integrate::ChannelSet::Entry& entry : channels.entries()) {
-        if (entry.channel->filter == integrate::ChannelFilter::picture) entries.push_back(entry);
-    }
-    return entries;
-}
-
-// Strips that hold rows of one run, finished or given away beside the next; with the rows that wait for others.
-int most_open(const film::StripLayout& layout, int reach) {
-    return 2 * ((static_cast<int>(kRunRows) + 2 * reach) / layout.rows + 2);
-}
-
-// Rows at the top that an earlier process finished are left out: what lies below is the same picture as a crop, to the
-// last bit. Single rows further down are rendered again.
-film::Rect rows_left(const film::RowKeeper* keeper, const film::Rect& window) {
-    film::Rect left = window;
-    if (keeper == nullptr) return left;
-    while (left.y0 < left.y1 && keeper->has({left.x0, left.y0, left.x1, left.y0 + 1})) ++left.y0;
-    return left;
-}
 
 SharedRender::SharedRender(RenderContext& context, const film::StripLayout& layout, film::StripSink sink,
                            film::RowKeeper* keeper)
@@ -187,7 +141,7 @@ void SharedRender::evaluate_block(Worker& worker, std::int64_t first, std::int64
     std::copy_n(worker.samples.fraction_u.begin(), count, fraction_u_.begin() + static_cast<std::ptrdiff_t>(offset));
     std::copy_n(worker.samples.fraction_v.begin(), count, fraction_v_.begin() + static_cast<std::ptrdiff_t>(offset));
     if (!context_.options.channels.empty()) filter_own_channels(worker);
-    for (Layer& layer : layers_) layer.gather(worker.channels, context_.options.channels.values(), offset);
+    for (SharedLayer& layer : layers_) layer.gather(worker.channels, context_.options.channels.values(), offset);
     context_.progress.add(last - first, static_cast<std::int64_t>(count));
 }
 
@@ -234,11 +188,18 @@ void SharedRender::for_each_strip(int rows_end, const Action& action) {
 void SharedRender::finish_rows(int rows_end, int x0, int x1) {
     for_each_strip(rows_end, [&](int strip, int begin, int end) {
         film::Film& film = film_.open(strip);
-        for (Layer& layer : layers_) {
+        for (SharedLayer& layer : layers_) {
             layer.accumulators.finish_channel(begin, end, x0, x1, layer.entry.first, layer.entry.count, film);
         }
+        if (context_.options.channels.has(integrate::ChannelFilter::ranks)) order_ranks({x0, begin, x1, end}, film);
         accumulators_.finish(begin, end, x0, x1, film);
     });
+}
+
+void SharedRender::order_ranks(const film::Rect& part, film::Film& film) const {
+    for (int y = part.y0; y < part.y1; ++y)
+        for (int x = part.x0; x < part.x1; ++x)
+            estimate::order_ranks(context_.options.channels, film.channels_at(x, y));
 }
 
 void SharedRender::note_rows(int rows_end) {
@@ -256,7 +217,7 @@ void SharedRender::add_to_strip(const Run& run, int x0, int x1) {
         for (std::int64_t index = first; index < last; ++index) {
             if (context_.cancelled()) return;
             accumulators_.add(samples_of(index, run, radiance_), x0, x1);
-            for (Layer& layer : layers_) layer.accumulators.add(samples_of(index, run, layer.values), x0, x1);
+            for (SharedLayer& layer : layers_) layer.accumulators.add(samples_of(index, run, layer.values), x0, x1);
         }
     }
 }

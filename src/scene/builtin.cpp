@@ -6,22 +6,25 @@ namespace strata::scene {
 
 namespace {
 
-BuiltinScene builtin_scene(const BuiltinText& builtin) {
-    const std::string name(builtin.name);
+// As it was asked for: outputs are named so.
+BuiltinScene builtin_scene(std::string_view asked, const BuiltinText& builtin) {
+    const std::string name(asked);
     return {name, read_scene(builtin.text, name + ".toml").title, builtin.text};
 }
+
+std::string_view own_name(std::string_view name) { return name == "terrain" ? "hills" : name; }
 
 }  // namespace
 
 std::vector<BuiltinScene> builtin_scenes() {
     std::vector<BuiltinScene> scenes;
-    for (const BuiltinText& builtin : builtin_texts()) scenes.push_back(builtin_scene(builtin));
+    for (const BuiltinText& builtin : builtin_texts()) scenes.push_back(builtin_scene(builtin.name, builtin));
     return scenes;
 }
 
 std::optional<BuiltinScene> find_builtin(std::string_view name) {
     for (const BuiltinText& builtin : builtin_texts()) {
-        if (builtin.name == name) return builtin_scene(builtin);
+        if (builtin.name == own_name(name)) return builtin_scene(name, builtin);
     }
     return std::nullopt;
 }

@@ -15,9 +15,13 @@ struct BuiltinScene {
     std::string_view text;
 };
 
+// What is rendered where no scene is named.
+inline constexpr std::string_view kDefaultScene = "alpenglow";
+
 // By name, a to z.
 std::vector<BuiltinScene> builtin_scenes();
 
+// `terrain`, the kind of surface that most scenes have, is another name of `hills`, the plainest of them.
 std::optional<BuiltinScene> find_builtin(std::string_view name);
 
 struct BuiltinText {

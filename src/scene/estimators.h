@@ -7,7 +7,9 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "src/sample/pattern.h"
@@ -45,6 +47,13 @@ struct EstimatorRow {
     // Whether samples count by B-spline weights.
     constexpr bool is_weighed() const {
         return placement == Placement::support_grid || placement == Placement::jittered || is_shared();
+    }
+
+    // Whether a pixel's own samples tell the variance of their mean, of N x N > 1 (src/estimate/pixel_channels.h): they
+    // count alike and are independent, or one in each of equally likely strata.
+    constexpr bool tells_variance() const {
+        return placement == Placement::by_density &&
+               (pattern == sample::PatternKind::random || pattern == sample::PatternKind::stratified);
     }
 
     // Whether the expected value of a pixel is the filtered picture's.
@@ -85,5 +94,15 @@ static_assert(is_in_order(), "a row for each enumerator, in their order");
 constexpr std::span<const EstimatorRow> all_estimators() { return detail::kEstimators; }
 
 constexpr const EstimatorRow& row_of(EstimatorKind kind) { return detail::kEstimators[static_cast<std::size_t>(kind)]; }
+
+// "random, sobol": those that a predicate of their rows holds for, in the table's order.
+template <class Predicate>
+std::string names_where(Predicate predicate) {
+    std::string names;
+    for (const EstimatorRow& row : all_estimators()) {
+        if (std::invoke(predicate, row)) names += (names.empty() ? "" : ", ") + std::string(row.name);
+    }
+    return names;
+}
 
 }  // namespace strata::scene

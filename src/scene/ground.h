@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "src/scene/ground_palette.h"
 
@@ -62,5 +64,11 @@ struct GroundLayer {
     SoftRange beds{-kEndOfNoise, kEndOfNoise, 0.3};
     GroundStrata strata{};
 };
+
+inline std::vector<std::string> names_of(std::span<const GroundLayer> layers) {
+    std::vector<std::string> names;
+    for (const GroundLayer& layer : layers) names.push_back(layer.name);
+    return names;
+}
 
 }  // namespace strata::scene

@@ -9,6 +9,7 @@
 
 #include "src/scene/key_makers.h"
 #include "src/scene/key_text.h"
+#include "src/scene/named_list.h"
 
 namespace strata::scene {
 
@@ -175,15 +176,7 @@ double finest_ground_cells(const GroundLayer& layer) {
 
 std::string ground_problem(std::span<const GroundLayer> layers, std::size_t i) {
     const GroundLayer& layer = layers[i];
-    if (!is_name(layer.name)) {
-        return fmt::format(
-            "ground[{}].name: not a name (\"{}\"), allowed: a letter, then letters, digits, '_' and '-', 64 at most", i,
-            excerpt(layer.name));
-    }
-    if (std::ranges::find(layers.first(i), layer.name, &GroundLayer::name) != layers.first(i).end()) {
-        return fmt::format("ground[{}].name: there already (\"{}\"), allowed: a name that no other layer has", i,
-                           layer.name);
-    }
+    if (std::string problem = name_problem("ground", layers, i); !problem.empty()) return problem;
     if (i == 0) {
         if (const std::string key = first_mask_key(layer); !key.empty()) {
             return fmt::format(

@@ -148,8 +148,8 @@ std::string allowed_text(const Key& key) {
                  [&](const std::vector<double>*) { return fmt::format("numbers {}", range_text(key)); },
                  [](const std::vector<CameraKey>*) {
                      return fmt::format(
-                         "up to {} tables of time_s (s, increasing by {:g} or more) and any of position, "
-                         "look_at, fov_deg",
+                         "up to {} tables of time_s (s, increasing by {:g} or more) and any of position, look_at, "
+                         "fov_deg",
                          kMostCameraKeys, kLeastKeyGap_s);
                  },
                  [](const Choice& choice) { return choice_text(choice); }},

@@ -7,12 +7,14 @@
 #include <type_traits>
 #include <utility>
 
+#include "src/scene/cloud_keys.h"
 #include "src/scene/enum_names.h"
 #include "src/scene/ground_keys.h"
 #include "src/scene/key_list.h"
 #include "src/scene/key_makers.h"
 #include "src/scene/pattern_keys.h"
 #include "src/scene/relief_keys.h"
+#include "src/scene/water_keys.h"
 
 namespace strata::scene {
 
@@ -35,6 +37,8 @@ Section film_section(Film& film) {
                     count("height", film.height, {1, 65536}, "pixels", "height of the whole frame"),
                     number("exposure", film.exposure, {-64.0, 64.0}, "stops",
                            "brightening of 8- and 16-bit pictures; EXR stays linear"),
+                    plain("metered", film.metered,
+                          "whether exposure counts from a light meter's: the whole frame's mean is mid grey"),
                     choice("tone", film.tone,
                            "tone curve of 8- and 16-bit pictures: none clips at 1, reinhard keeps hues, agx whitens "
                            "what is bright as film does; mid grey stays"),
@@ -80,8 +84,8 @@ Section camera_section(Camera& camera, bool matters) {
          choice("interpolation", camera.interpolation,
                 "between keys: smooth eases through them without overshoot, linear goes straight"),
          plain("keys", camera.keys,
-               "the camera over time, also as [[camera.keys]]; it rests before the first and after the last; "
-               "parts left out are the camera's own")});
+               "the camera over time, also as [[camera.keys]]; it rests before the first and after the last; parts "
+               "left out are the camera's own")});
 }
 
 std::string_view kinds_meaning() {
@@ -192,7 +196,9 @@ Section fog_section(Fog& fog, bool matters) {
                  number("rise_m", fog.rise_m, {0.0, 1e5}, "m", "how far a noise lifts and lowers it; 0: it lies even")),
          only_if(is_foggy, number("patch_m", fog.patch_m, {0.1, 1e7}, "m", "length of that noise's largest waves")),
          only_if(is_foggy, number("forward", fog.forward, {-0.95, 0.95}, "",
-                                  "mean cosine of its scattering: 0 even, near 1 a bright glow about the sun"))});
+                                  "mean cosine of its scattering: 0 even, near 1 a bright glow about the sun")),
+         only_if(is_foggy, plain("shafts", fog.shafts,
+                                 "whether ground and clouds throw their shadows into it: a shadow ray a sample"))});
 }
 
 Section material_section(Material& material, bool matters) {
@@ -225,7 +231,9 @@ Section describe_camera_key(CameraKey& entry, Camera& rest, std::size_t index) {
 
 namespace {
 
-bool is_in_metres(const Scene& scene) { return scene.sky.model == SkyModel::daylight || scene.fog.visibility_m > 0.0; }
+bool is_in_metres(const Scene& scene) {
+    return scene.sky.model == SkyModel::daylight || scene.fog.visibility_m > 0.0 || scene.water.present;
+}
 
 }  // namespace
 
@@ -242,6 +250,7 @@ std::vector<Section> describe(Scene& scene) {
                              sun_section(scene.sun, scene.sky.model == SkyModel::daylight, surface),
                              sky_section(scene.sky, surface),
                              fog_section(scene.fog, surface),
+                             describe_water(scene.water, surface),
                              material_section(scene.material, surface && scene.ground.empty())};
     add_pattern_sections(scene, all);
     for (noise::ReliefTerm& term : scene.surface.relief) {
@@ -250,6 +259,10 @@ std::vector<Section> describe(Scene& scene) {
     }
     for (GroundLayer& layer : scene.ground) {
         all.push_back(describe_ground_layer(layer));
+        for (Key& key : all.back().keys) key.matters = surface;
+    }
+    for (CloudLayer& layer : scene.clouds) {
+        all.push_back(describe_cloud_layer(layer));
         for (Key& key : all.back().keys) key.matters = surface;
     }
     return all;

@@ -64,7 +64,7 @@ struct Section {
     std::string name;  // empty: the top of the file
     std::string_view meaning;
     std::vector<Key> keys;
-    bool is_term = false;  // one [[relief]] or [[ground]] of the file, by the name among its keys
+    bool is_term = false;  // one [[relief]], [[ground]] or [[clouds]] of the file, by the name among its keys
 };
 
 // The keys of one entry of camera.keys, as section `camera.keys[index]`. The fields point into `entry`; those that it
@@ -75,7 +75,8 @@ Section describe_camera_key(CameraKey& entry, Camera& rest, std::size_t index);
 inline constexpr std::size_t kMostCameraKeys = 10'000;
 inline constexpr double kLeastKeyGap_s = 1e-6;
 
-// Every key, in the order in which it is printed; last the relief's terms and the ground's layers, a section each. The
+// Every key, in the order in which it is printed; last the relief's terms and the layers of ground
+// and clouds, a section each. The
 // fields point into scene, which must outlive them.
 std::vector<Section> describe(Scene& scene);
 

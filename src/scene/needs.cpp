@@ -1,5 +1,7 @@
 #include "src/scene/needs.h"
 
+#include <algorithm>
+
 #include "src/scene/camera_path.h"
 
 namespace strata::scene {
@@ -15,7 +17,8 @@ Motion motion(const Scene& scene) {
     if (scene.image != ImageKind::surface) return {};
     return {.camera = CameraPath(scene.camera).moves_during(open_shutter(scene)),
             .spin = scene.surface.spin_deg_per_s != 0.0,
-            .drift = noise_drifts(scene.surface)};
+            .drift = noise_drifts(scene.surface),
+            .clouds = clouds_drift(scene)};
 }
 
 int samples_a_pixel(const Sampling& sampling) { return sampling.samples_a_pixel(); }
@@ -30,6 +33,14 @@ bool needs_shadow_rays(const Scene& scene) {
     return sun.shadows && sun.intensity > 0.0 && sun.colour != glm::dvec3(0.0);
 }
 
+bool needs_fog_shafts(const Scene& scene) { return scene.fog.visibility_m > 0.0 && scene.fog.shafts; }
+
+bool needs_clouds(const Scene& scene) { return std::ranges::any_of(scene.clouds, &CloudLayer::is_there); }
+
+bool clouds_drift(const Scene& scene) { return std::ranges::any_of(scene.clouds, &CloudLayer::drifts); }
+
 bool needs_sky_rays(const Scene& scene) { return scene.sky.light == SkyLight::rays; }
+
+bool needs_water(const Scene& scene) { return scene.image == ImageKind::surface && scene.water.present; }
 
 }  // namespace strata::scene

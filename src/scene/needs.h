@@ -15,9 +15,10 @@ struct Motion {
     bool camera = false;  // along its keys
     bool spin = false;    // of the surface
     bool drift = false;   // of the noise
+    bool clouds = false;  // layers of them, in the wind
     bool wheel = false;   // the image-plane pattern
 
-    bool any() const { return camera || spin || drift || wheel; }
+    bool any() const { return camera || spin || drift || clouds || wheel; }
 };
 Motion motion(const Scene& scene);
 
@@ -31,7 +32,17 @@ bool needs_time_samples(const Scene& scene);
 // Whether a shadow can darken a surface: it takes sunlight.
 bool needs_shadow_rays(const Scene& scene);
 
+// Whether the sun's light in the fog is found by shadow rays.
+bool needs_fog_shafts(const Scene& scene);
+
+// Whether there are clouds at all, and whether some drift.
+bool needs_clouds(const Scene& scene);
+bool clouds_drift(const Scene& scene);
+
 // Whether the sky's light is found by rays.
 bool needs_sky_rays(const Scene& scene);
+
+// Whether there is water over the surface.
+bool needs_water(const Scene& scene);
 
 }  // namespace strata::scene

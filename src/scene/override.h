@@ -8,7 +8,8 @@
 
 namespace strata::scene {
 
-// `camera.fov_deg=35`: any key, its value in TOML, strings of plain words without quotes. option is what the user
+// `camera.fov_deg=35`: any key, its value in TOML, strings of plain words without quotes. `relief.seed=7` adds 7 to the
+// seeds of all terms of the relief. option is what the user
 // typed, for the message; empty: `--set assignment`. On SceneError the scene is as before.
 void apply_override(Scene& scene, std::string_view assignment, std::string_view option = {});
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -24,8 +26,8 @@ struct Line {
 };
 
 Line line_of(const Key& key, const Key& of_defaults) {
-    return {fmt::format("{} = {}", key.name, value_text(key)),
-            fmt::format("{}; default {}: {}", allowed_text(key), value_text(of_defaults), key.meaning)};
+    return {.assignment = fmt::format("{} = {}", key.name, value_text(key)),
+            .comment = fmt::format("{}; default {}: {}", allowed_text(key), value_text(of_defaults), key.meaning)};
 }
 
 std::string aligned(const std::vector<Line>& lines) {
@@ -37,10 +39,26 @@ std::string aligned(const std::vector<Line>& lines) {
     std::string text;
     for (const Line& line : lines) {
         const std::size_t width = std::max(column, line.assignment.size() + 2);
-        text += fmt::format("{:<{}}# {}\n", line.assignment, width, line.comment);
+        text += line.comment.empty() ? line.assignment + '\n'
+                                     : fmt::format("{:<{}}# {}\n", line.assignment, width, line.comment);
     }
     return text;
 }
+
+// Terms of a list have the same keys over and over: each is explained where it comes first. Pictures carry this text,
+// and some files have room for 60,000 bytes of it.
+class ToldOnce {
+  public:
+    void tell(std::vector<Line>& lines) {
+        for (Line& line : lines) {
+            const std::string_view name = std::string_view(line.assignment).substr(0, line.assignment.find(' '));
+            if (!told_.emplace(name, line.comment).second) line.comment.clear();
+        }
+    }
+
+  private:
+    std::set<std::pair<std::string, std::string>> told_;
+};
 
 }  // namespace
 
@@ -51,10 +69,13 @@ std::string print_scene(const Scene& scene, PrintedKeys keys) {
         default_scene.surface.relief.push_back(default_relief_term(term.node.index()));
     }
     default_scene.ground.resize(scene.ground.size());
+    default_scene.clouds.resize(scene.clouds.size());
     const std::vector<Section> sections = describe(copy);
     const std::vector<Section> defaults = describe(default_scene);
 
-    std::string text = "# After each key: what it allows, its unit, its default and its meaning.\n";
+    std::string text =
+        "# After each key: what it allows, its unit, its default and its meaning; of [[terms]], where it comes first.\n";
+    ToldOnce terms;
     for (std::size_t i = 0; i < sections.size(); ++i) {
         const Section& section = sections[i];
         std::vector<Line> lines;
@@ -70,6 +91,7 @@ std::string print_scene(const Scene& scene, PrintedKeys keys) {
                                         ? fmt::format("[[{}]]", section.name.substr(0, section.name.find('.')))
                                         : fmt::format("[{}]", section.name);
         if (!section.name.empty()) text += fmt::format("\n{}  # {}\n", heading, section.meaning);
+        if (section.is_term) terms.tell(lines);
         text += aligned(lines);
     }
     return text;

@@ -109,9 +109,8 @@ std::string relief_problem(std::span<const ReliefTerm> terms, std::size_t i) {
     const ReliefTerm& term = terms[i];
     if (!is_name(term.name)) {
         return fmt::format(
-            "relief[{}].name: not a name (\"{}\"), allowed: a letter, then letters, digits, '_' and '-', "
-            "64 at most",
-            i, excerpt(term.name));
+            "relief[{}].name: not a name (\"{}\"), allowed: a letter, then letters, digits, '_' and '-', 64 at most", i,
+            excerpt(term.name));
     }
     if (std::ranges::find(terms.first(i), term.name, &ReliefTerm::name) != terms.first(i).end()) {
         return fmt::format("relief[{}].name: there already (\"{}\"), allowed: a name that no other term has", i,

@@ -17,8 +17,8 @@ namespace {
 
 Fault not_terms(const toml::node& node) {
     return fault_at(node.source().begin,
-                    fmt::format("relief: wrong type ({}), allowed: terms, each [[relief]] with its "
-                                "keys below it, or an array of tables",
+                    fmt::format("relief: wrong type ({}), allowed: terms, each [[relief]] with its keys below it, or "
+                                "an array of tables",
                                 node_text(node)));
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "noise/relief/relief.h"
+#include "src/scene/clouds.h"
 #include "src/scene/estimators.h"
 #include "src/scene/ground.h"
 #include "src/scene/rate.h"
@@ -27,6 +28,8 @@ struct Film {
 
     // Of 8- and 16-bit pictures only; EXR stays linear.
     double exposure = 0.0;  // stops
+    bool metered =
+        false;  // exposure counts from what render::take_exposure finds, which writes the sum and resets this
     ToneCurve tone = ToneCurve::none;
     glm::dvec3 white_balance{1.0};  // factors, beside exposure
     double saturation = 1.0;        // about luminance
@@ -153,6 +156,17 @@ struct Fog {
     double rise_m = 0.0;        // how far a noise lifts and lowers it
     double patch_m = 4000.0;    // length of that noise's largest waves
     double forward = 0.6;       // mean cosine of scattering
+    bool shafts = false;        // whether what hides the sun throws its shadow into it
+};
+
+// Level water (shaders_cpu/water.h), in metres.
+struct Water {
+    bool present = false;
+    double level_m = 0.0;                     // over y = 0
+    double wind_m_s = 3.0;                    // which raises its waves
+    double waves_m = 8.0;                     // length of the largest of them
+    glm::dvec3 absorption{0.34, 0.06, 0.03};  // of what is left along a way, a metre
+    glm::dvec3 deep{0.0, 0.006, 0.008};       // reflectance of water without a bed
 };
 
 struct Material {
@@ -207,6 +221,8 @@ struct Scene {
     Sun sun;
     Sky sky;
     Fog fog;
+    std::vector<CloudLayer> clouds{};  // in scene files: [[clouds]]
+    Water water;
     Material material;
     std::vector<GroundLayer> ground{};  // lowest first; none: material alone. In scene files: [[ground]]
     Zoneplate zoneplate;

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "src/scene/cloud_reader.h"
 #include "src/scene/ground_reader.h"
 #include "src/scene/key_lookup.h"
 #include "src/scene/key_text.h"
@@ -40,7 +41,7 @@ std::vector<Entry> entries_in_order(const toml::table& file, std::span<const Sec
         const std::string top(top_key.str());
         const toml::table* table = top_node.as_table();
         const bool is_key = find_key(sections.front(), top) != nullptr;
-        if (top == kReliefTerms || top == kGroundLayers) {
+        if (top == kReliefTerms || top == kGroundLayers || top == kCloudLayers) {
             entries.push_back({top_key.source().begin, top, "", &top_node});
         } else if (!table || is_key) {
             entries.push_back({top_key.source().begin, "", top, &top_node});
@@ -61,6 +62,7 @@ std::vector<Entry> entries_in_order(const toml::table& file, std::span<const Sec
 MaybeFault assign_entry(Scene& scene, std::span<const Section> sections, const Entry& entry) {
     if (entry.section == kReliefTerms) return read_relief(scene, *entry.node);
     if (entry.section == kGroundLayers) return read_ground(scene, *entry.node);
+    if (entry.section == kCloudLayers) return read_clouds(scene, *entry.node);
     if (!entry.node) return fault_at(entry.at, unknown_section(sections, entry.section));
     const Key* key = find_key(*find_section(sections, entry.section), entry.name);
     if (key) return assign_node(*key, *entry.node);
@@ -76,8 +78,8 @@ MaybeFault read_entries(const toml::table& file, Scene& scene) {
     const std::vector<Entry> entries = entries_in_order(file, sections);
     if (entries.empty()) {
         return Fault{1, 1,
-                     "empty, allowed: a scene file holds at least one key, such as image = \"surface\"; "
-                     "`strata scenes terrain` prints one with every key explained"};
+                     "empty, allowed: a scene file holds at least one key, such as image = \"surface\"; `strata scenes "
+                     "hills` prints one with every key explained"};
     }
     for (const Entry& entry : entries) {
         if (auto fault = assign_entry(scene, sections, entry)) return fault;

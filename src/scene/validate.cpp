@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "src/scene/camera_path.h"
+#include "src/scene/cloud_keys.h"
 #include "src/scene/ground_keys.h"
 #include "src/scene/key_text.h"
 #include "src/scene/keys.h"
 #include "src/scene/needs.h"
 #include "src/scene/relief_keys.h"
+#include "src/scene/water_keys.h"
 
 namespace strata::scene {
 
@@ -44,8 +47,8 @@ void check_daylight(const Scene& scene) {
     }
     if (scene.surface.spin_deg_per_s != 0.0) {
         throw SceneError(
-            "sky.model: \"daylight\" stands still over a surface that does not, allowed: "
-            "surface.spin_deg_per_s = 0, or \"gradient\"");
+            "sky.model: \"daylight\" stands still over a surface that does not, allowed: surface.spin_deg_per_s = 0, "
+            "or \"gradient\"");
     }
 }
 
@@ -95,10 +98,48 @@ void check_ground(const Scene& scene) {
     }
 }
 
+// Seconds from time 0 at which the frame is, before or after.
+double latest(const Scene& scene) {
+    const TimeSpan open = open_shutter(scene);
+    return std::max(std::abs(open.first), std::abs(open.last));
+}
+
+// Clouds are lit by daylight, which has its horizon level. A layer is a sphere about the Earth's middle, so that none
+// of it is seen further aside from under the eye than its radius, 6.4e6 m.
+void check_clouds(const Scene& scene) {
+    if (scene.clouds.size() > kMostCloudLayers) {
+        throw SceneError(fmt::format("clouds: {} layers, allowed: {} at most", scene.clouds.size(), kMostCloudLayers));
+    }
+    for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
+        const CloudLayer& layer = scene.clouds[i];
+        if (const std::string problem = cloud_problem(scene.clouds, i); !problem.empty()) throw SceneError(problem);
+        if (scene.sky.model != SkyModel::daylight) {
+            throw SceneError(fmt::format(
+                "clouds.{}: lit by daylight alone, allowed: sky.model = \"daylight\", or no clouds", layer.name));
+        }
+        const double cells = finest_cloud_cells(layer), farthest = reach(scene) * scene.scale.metres + 6.4e6 +
+                                                                   layer.warp_m + layer.wind_m_s * latest(scene);
+        if (cells * farthest <= kMostCells) continue;
+        throw SceneError(fmt::format(
+            "clouds.{}: its finest noise has {:.3g} cells a metre, and is seen up to {:.3g} m from surface.origin: "
+            "more than 2^50 cells, too fine for double precision, allowed: fewer octaves, a larger size_m, {}or a lower "
+            "camera.far",
+            layer.name, cells, farthest, layer.wind_m_s > 0.0 ? "less wind, an earlier frame, " : ""));
+    }
+}
+
+noise::Relief relief_of(const Surface& surface) {
+    try {
+        return {surface.relief, solid::row_of(surface.kind).dimensions};
+    } catch (const std::invalid_argument& refused) {
+        throw SceneError(refused.what());
+    }
+}
+
 // The relief's octaves, wherever a warp reads them.
 void check_relief_octaves(const Scene& scene) {
     const Surface& surface = scene.surface;
-    const noise::Relief relief(surface.relief, solid::row_of(surface.kind).dimensions);
+    const noise::Relief relief = relief_of(surface);
     double displaced = 0.0;
     for (const noise::ReliefPart& part : relief.parts()) {
         if (!part.inputs.empty() && !part.octaves.empty()) displaced += part.amplitude_from.front();
@@ -107,8 +148,7 @@ void check_relief_octaves(const Scene& scene) {
     if (relief.finest_frequency() * farthest <= kMostCells) return;
     throw SceneError(fmt::format(
         "relief: its finest octave has {:.3g} lattice cells a surface unit, and is seen up to {:.3g} surface units "
-        "from "
-        "surface.origin: more than 2^50 cells, too fine for double precision, allowed: fewer octaves, lower "
+        "from surface.origin: more than 2^50 cells, too fine for double precision, allowed: fewer octaves, lower "
         "frequencies, or a lower camera.far",
         relief.finest_frequency(), farthest));
 }
@@ -141,10 +181,8 @@ void check_octaves(const Scene& scene) {
             const std::string_view reach_key = solid::row_of(surface.kind).reach_key;
             throw SceneError(
                 fmt::format("surface.octaves: octave {} of {} is too fine for double precision ({:.3g} lattice cells a "
-                            "surface unit, "
-                            "seen up to {:.3g} surface units from surface.origin{} exceed 2^50 cells), allowed: "
-                            "{}surface.frequency or "
-                            "{}",
+                            "surface unit, seen up to {:.3g} surface units from surface.origin{} exceed 2^50 cells), "
+                            "allowed: {}surface.frequency or {}",
                             k + 1, surface.octaves, frequency, farthest, drifted.empty() ? "," : drifted, octaves,
                             !drifted.empty()    ? "surface.drift, or an earlier frame"
                             : reach_key.empty() ? "camera.far, or a camera nearer to surface.origin"
@@ -163,17 +201,14 @@ double reach(const Scene& scene) {
     for (const glm::dvec3& x : CameraPath(scene.camera).position_hull(open_shutter(scene))) {
         eye = std::max(eye, glm::distance(x, surface.origin));
     }
-    // Sky rays go on from what was met, each as far as the eye's. The last shadow ray has a factor of 2 to go further.
-    const double stretches = needs_sky_rays(scene) ? 1.0 + scene.sky.bounces : 1.0;
+    // Sky rays go on from what was met, and others from water, each as far as the eye's. The last shadow ray has a
+    // factor of 2 to go further.
+    const double stretches = (needs_sky_rays(scene) ? 1.0 + scene.sky.bounces : 1.0) + (needs_water(scene) ? 1.0 : 0.0);
     const double along_rays = (eye + stretches * scene.camera.far) / surface.scale;
     return solid::visit([&](const auto& shape) { return shape.reach(along_rays); }, surface.solid());
 }
 
-double noise_reach(const Scene& scene) {
-    const TimeSpan open = open_shutter(scene);
-    const double longest = std::max(std::abs(open.first), std::abs(open.last));
-    return reach(scene) + glm::length(scene.surface.drift) * longest;
-}
+double noise_reach(const Scene& scene) { return reach(scene) + glm::length(scene.surface.drift) * latest(scene); }
 
 void validate(const Scene& scene, std::string_view source_name) {
     try {
@@ -182,8 +217,10 @@ void validate(const Scene& scene, std::string_view source_name) {
             check_view(scene.camera);
             check_daylight(scene);
             check_fog(scene);
+            check_water(scene);
             check_relief(scene);
             check_ground(scene);
+            check_clouds(scene);
             if (scene.surface.relief.empty()) {
                 check_octaves(scene);
             } else {

@@ -7,7 +7,7 @@
 //
 // where up and down are e0 + e1 |D| + e2 |D|^2 with coefficients no less than 0. This form is kept by sums, products,
 // curves and displacements of the domain (enclosure_rules-inl.h, relief_lanes-inl.h). What float arithmetic adds to
-// value and gradient is part of e0 and e1; the slacks' own roundings are made good once, by inflated().
+// value and gradient is part of e0 and e1; the slacks' own roundings are made good by every operation, in rounded().
 #if defined(STRATA_TRACE_ENCLOSURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STRATA_TRACE_ENCLOSURE_INL_H_
 #undef STRATA_TRACE_ENCLOSURE_INL_H_
@@ -58,6 +58,10 @@ namespace strata::trace::HWY_NAMESPACE {
 // component of a gradient four times.
 inline constexpr float kOperation = 0x1p-22f;
 
+// Slacks are sums of products of numbers no less than 0. In an operation such a product is rounded fewer than 48 times
+// in a row, by 2^-24 of itself at most, and multiplied by this.
+inline constexpr float kRoundingsOfSlack = 1.0f + 0x1p-18f;
+
 // Curves are evaluated by at most eight roundings, of values no larger than a few times the larger of 1 and the result.
 inline constexpr float kCurveError = 0x1p-20f;
 
@@ -80,6 +84,9 @@ HWY_INLINE Slack plus(const Slack& a, const Slack& b) {
 }
 HWY_INLINE Slack times(const Slack& a, FloatVec by) {
     return {hn::Mul(a.e0, by), hn::Mul(a.e1, by), hn::Mul(a.e2, by)};
+}
+HWY_INLINE Slack mul_add(const Slack& a, FloatVec by, const Slack& b) {
+    return {hn::MulAdd(a.e0, by, b.e0), hn::MulAdd(a.e1, by, b.e1), hn::MulAdd(a.e2, by, b.e2)};
 }
 HWY_INLINE Slack larger(const Slack& a, const Slack& b) {
     return {hn::Max(a.e0, b.e0), hn::Max(a.e1, b.e1), hn::Max(a.e2, b.e2)};
@@ -121,33 +128,18 @@ struct ReliefPoints {
     hn::Mask<FloatTag>* broken;  // lanes in which bounds grew past kMostSlack are added
 };
 
-// Bounds beyond it are of no use, and their products would soon be no numbers at all.
+// Bounds beyond it are of no use, and their products would soon be no numbers at all: nothing is believed any more of a
+// lane in which an operation that multiplies slacks had such a result. Between two of these, sums and constant factors
+// (1e10 at most) keep them finite.
 inline constexpr float kMostSlack = 1e12f;
 
-// With what an operation's rounding adds.
-HWY_INLINE Enclosure rounded(Enclosure x, const ReliefPoints& points, hn::Mask<FloatTag> used) {
-    const FloatVec unit = set(kOperation);
-    const FloatVec e0 = hn::Mul(unit, hn::Abs(x.value));
-    const FloatVec sum = hn::Add(hn::Abs(x.gradient.x), hn::Add(hn::Abs(x.gradient.y), hn::Abs(x.gradient.z)));
-    widen(x, e0, hn::Mul(unit, sum));
-    const FloatVec most = set(kMostSlack);
-    const Slack wide = larger(x.up, x.down);
-    // Sums, for a maximum may hide what is not a number.
-    const FloatVec size = hn::Add(hn::Add(wide.e0, wide.e2), hn::Add(hn::Add(wide.e1, sum), hn::Abs(x.value)));
-    const auto fits = hn::Lt(size, most);
+// Notes the lanes of `used` in which x is of no use. Sums, for a maximum may hide what is not a number.
+HWY_INLINE void check(const Enclosure& x, const ReliefPoints& points, hn::Mask<FloatTag> used) {
+    const FloatVec ups = hn::Add(hn::Add(x.up.e0, x.up.e1), x.up.e2);
+    const FloatVec downs = hn::Add(hn::Add(x.down.e0, x.down.e1), x.down.e2);
+    const auto fits = hn::Lt(hn::Add(ups, downs), set(kMostSlack));
     *points.broken = hn::Or(*points.broken, hn::AndNot(fits, used));
-    const auto least = [&](const Slack& a) HWY_ATTR {
-        return Slack{hn::Min(a.e0, most), hn::Min(a.e1, most), hn::Min(a.e2, most)};
-    };
-    x.up = least(x.up);
-    x.down = least(x.down);
-    x.gradient = {hn::Clamp(x.gradient.x, hn::Neg(most), most), hn::Clamp(x.gradient.y, hn::Neg(most), most),
-                  hn::Clamp(x.gradient.z, hn::Neg(most), most)};
-    return x;
 }
-
-// Sums of products of numbers no less than 0, each rounded a few hundred times at most.
-HWY_INLINE Slack inflated(const Slack& slack) { return times(slack, set(1.0f + 0x1p-14f)); }
 
 }  // namespace strata::trace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -33,6 +33,7 @@ enum class HitState : std::uint8_t {
     miss,
     hit,
     unresolved,  // the step limit was reached
+    water,       // never a tracer's: no surface lies before the level water, where the ray ends (src/integrate/water.h)
 };
 
 struct Hit {

@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace strata::trace::HWY_NAMESPACE {
 
 // As in relief_tracer.cpp. Speed only.
-constexpr float kBeamGrow = 1.5f, kBeamShrink = 0.25f;
+constexpr float kBeamAgain = 1.0f, kBeamGrow = 1.4f, kBeamShrink = 0.4f;
 
 struct BeamStep {
     FloatVec safe, slope, radius;
@@ -78,8 +78,8 @@ HWY_INLINE void move_beam(BeamPacket& packet, std::size_t lane, float safe, floa
     const bool gains = safe > 0.0f && safe >= least;
     const bool may_shrink = !gains && hint > 2.0f * std::max(least, 1e-30f);
     const bool ends_here = misses || ++packet.steps[lane] >= kMostBeamSteps || !(gains || may_shrink);
-    packet.hint[lane] =
-        gains ? std::min(kBeamGrow * safe, 1e15f) : std::max(kBeamShrink * hint, std::max(least, 1e-30f));
+    packet.hint[lane] = gains ? std::min((safe < hint ? kBeamAgain : kBeamGrow) * safe, 1e15f)
+                              : std::max(kBeamShrink * hint, std::max(least, 1e-30f));
     if (!ends_here) return;
     ends[packet.beam[lane]] = {packet.s[lane], packet.hint[lane], slope, misses};
     packet.active[lane] = 0.0f;

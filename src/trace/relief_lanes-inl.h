@@ -12,12 +12,10 @@
 #include <variant>
 
 #include "noise/float_error.h"
-#include "noise/relief/frame.h"
 #include "noise/relief/nodes/all.h"
 #include "noise/relief/stripe.h"
-#include "src/trace/enclosure_rules-inl.h"
 #include "src/trace/pits-inl.h"
-#include "src/trace/relief_enclosure-inl.h"
+#include "src/trace/relief_sum-inl.h"
 #include "src/trace/stripe-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,113 +24,59 @@ namespace strata::trace::HWY_NAMESPACE {
 // Sines, cosines and their angles (stripe-inl.h).
 inline constexpr double kStripeError = 0x1p-19;
 
-// Octaves are evaluated where the ball is smaller than this many of their lattice cells. Speed only.
-inline constexpr float kReliefCellsAhead = 0.3f;
-
 // The numbers that the relief nodes' formulas are read with.
 template <bool kPlanar>
-class LaneNumbers : public noise::ReliefFrame, public EnclosureRules {
+class LaneNumbers : public LaneSums<kPlanar> {
   public:
+    using Sums = LaneSums<kPlanar>;
+    using Sums::constant;
+    using Sums::curved;
+    using Sums::dimensions;
+    using Sums::plus;
+    using Sums::scaled_by;
+    using typename Sums::Domain;
+    using typename Sums::Number;
+    using typename Sums::Pair;
+    using typename Sums::Planes;
+
     using Displacement = std::array<Number, 3>;
 
-    // The point at which a relief is read: `at` + J D + e with |J D + e| <= stretch |D| + slack.e0, |e| <= slack(|D|).
-    struct Domain {
-        WidePoint at;
-        bool is_plain = true;  // J is 1, the slack 0
-        std::array<FloatPoint, 3> rows{};
-        FloatVec stretch;
-        Slack slack;
-        double reach;  // bound of |at| on every axis of every lane
-    };
-
     HWY_INLINE LaneNumbers(const ReliefPlan& plan, std::size_t index, const ReliefPoints& points)
-        : ReliefFrame(plan.relief->parts()[index], kPlanar ? 2 : 3),
-          EnclosureRules(points),
-          plan_(plan),
-          index_(index) {}
+        : Sums(plan, index, points, kPlanar ? 2 : 3) {}
 
     static HWY_INLINE Domain domain(const WidePoint& at, double reach) {
         return {at, true, {}, set(1.0f), no_slack(), reach};
     }
 
-    // Taylor's formula for noise: n(q + E) <= n + grad n . E + H |E|^2 / 2 in lattice units, E = w (J D + e).
-    HWY_INLINE Number octave(std::size_t k, const Domain& at) {
+    // `by` times the noise. Taylor's formula: n(q + E) <= n + grad n . E + H |E|^2 / 2 in lattice units, E = w (J D +
+    // e).
+    HWY_INLINE Number octave(std::size_t k, const Domain& at, double by = 1.0) {
         const TraceOctave& octave = plan_.octaves[index_][k];
-        const noise::PlanTurn* turn = ReliefFrame::turn(k);
+        const noise::PlanTurn* turn = this->turn(k);
         const OctaveSample n = turn == nullptr ? sample_octave<kPlanar>(octave, at.at, at.reach)
                                                : sample_turned<kPlanar>(octave, *turn, at.at, at.reach);
         count();
-        const FloatVec frequency = set(octave.frequency);
-        const FloatPoint there = HWY_NAMESPACE::scaled({n.dx, n.dy, n.dz}, frequency);
         const auto& errors = kPlanar ? noise::kFloatErrors2 : noise::kFloatErrors3;
-        const double wave = octave.wave;
-        const FloatVec half_bend = set(0.5 * bounds().second * wave * wave * kRoundUp);
-        Slack slack = {set(errors.value), hn::Mul(set(errors.slope * wave), at.stretch),
+        const noise::NoiseBounds& of = this->bounds();
+        const double size = std::abs(by) * kRoundingsOfSlack, per = size * octave.wave;
+        const FloatVec value = hn::Mul(n.value, set(by));
+        const FloatPoint there = Planes::scaled({n.dx, n.dy, n.dz}, set(octave.frequency * by));
+        // The terms of a gradient that is turned back, or that goes through a bent domain, may cancel.
+        const double roundings = 1.0 + (turn != nullptr ? 2.0 : 0.0) + (at.is_plain ? 0.0 : 2.0);
+        const double tilt = errors.slope + roundings * kOperation * of.gradient;
+        const FloatVec half_bend = set(0.5 * of.second * octave.wave * per);
+        Slack slack = {set((errors.value + kOperation * of.value) * size), hn::Mul(set(tilt * per), at.stretch),
                        hn::Mul(half_bend, hn::Mul(at.stretch, at.stretch))};
-        // The terms of a gradient that is turned back may cancel.
-        if (turn != nullptr) {
-            slack.e1 = hn::MulAdd(set(2.0 * kOperation * bounds().gradient * wave), at.stretch, slack.e1);
-        }
-        if (at.is_plain) return finished({n.value, there, slack, slack});
-        slack = HWY_NAMESPACE::plus(slack, times(at.slack, set(bounds().gradient * wave * kRoundUp)));
-        slack.e0 = hn::MulAdd(half_bend, hn::Mul(at.slack.e0, at.slack.e0), slack.e0);
-        slack.e1 = hn::MulAdd(half_bend, hn::Mul(set(2.0f), hn::Mul(at.stretch, at.slack.e0)), slack.e1);
-        FloatPoint gradient = HWY_NAMESPACE::scaled(at.rows[0], there.x);
-        gradient = mul_add(there.z, at.rows[2], gradient);
-        if constexpr (!kPlanar) gradient = mul_add(there.y, at.rows[1], gradient);
-        // Its terms may cancel.
-        slack.e1 = hn::MulAdd(set(kOperation * bounds().gradient * wave), at.stretch, slack.e1);
-        return finished({n.value, gradient, slack, slack});
-    }
-
-    struct Running {
-        Number sum;
-        hn::Mask<FloatTag> open;
-        FloatVec above, below;  // what the octaves left out may add and take
-    };
-
-    HWY_INLINE Running begin_sum() const {
-        const FloatVec zero = hn::Zero(FloatTag());
-        return {constant(0.0), points_.active, zero, zero};
-    }
-
-    // Whether octave k is to be evaluated in any lane. Where it is too fine it and all after it stay between low and
-    // high, low <= 0 <= high.
-    HWY_INLINE bool sees(Running& running, std::size_t k, const Domain& at, double low, double high) {
-        return sees_cells(running, plan_.octaves[index_][k].wave, at, low, high);
-    }
-
-    // The same of a term with so many cells a unit.
-    HWY_INLINE bool sees_cells(Running& running, double cells, const Domain& at, double low, double high) {
-        return sees_within(running, cells, at, set(-low * kRoundUp), set(high * kRoundUp));
-    }
-
-    // The same where octave k and all after it stay between 0 and both `most` and `per_weight` times a weight.
-    HWY_INLINE bool sees_weighed(Running& running, std::size_t k, const Domain& at, const Number& weight, double most,
-                                 double per_weight) {
-        const FloatVec radius = points_.radius;
-        const FloatVec top = hn::MulAdd(length(weight.gradient), radius, hn::Add(weight.value, weight.up.at(radius)));
-        const FloatVec of_weight = hn::Mul(hn::Max(top, hn::Zero(FloatTag())), set(per_weight * (1.0 + 0x1p-14)));
-        return sees_within(running, plan_.octaves[index_][k].wave, at, hn::Zero(FloatTag()),
-                           hn::Min(of_weight, set(most * kRoundUp)));
-    }
-
-    HWY_INLINE void add(Running& running, const Number& term) const {
-        const Number sum = plus(running.sum, term);
-        Number& to = running.sum;
-        to.value = hn::IfThenElse(running.open, sum.value, to.value);
-        to.gradient = {hn::IfThenElse(running.open, sum.gradient.x, to.gradient.x),
-                       hn::IfThenElse(running.open, sum.gradient.y, to.gradient.y),
-                       hn::IfThenElse(running.open, sum.gradient.z, to.gradient.z)};
-        to.up = choose(running.open, sum.up, to.up);
-        to.down = choose(running.open, sum.down, to.down);
-    }
-
-    HWY_INLINE Number total(const Running& running) const {
-        Number sum = running.sum;
-        sum.up.e0 = hn::Add(sum.up.e0, running.above);
-        sum.down.e0 = hn::Add(sum.down.e0, running.below);
-        return sum;
+        if (at.is_plain) return {value, there, slack, slack};
+        const FloatVec off = at.slack.e0;
+        slack = HWY_NAMESPACE::mul_add(at.slack, set(of.gradient * per), slack);
+        slack.e0 = hn::MulAdd(half_bend, hn::Mul(off, off), slack.e0);
+        slack.e1 = hn::MulAdd(half_bend, hn::Mul(hn::Add(at.stretch, at.stretch), off), slack.e1);
+        FloatPoint gradient = Planes::mul_add(there.z, at.rows[2], Planes::scaled(at.rows[0], there.x));
+        if constexpr (!kPlanar) gradient = Planes::mul_add(there.y, at.rows[1], gradient);
+        const Number result{value, gradient, slack, slack};
+        check(result, points_, counted_);
+        return result;
     }
 
     static HWY_INLINE Displacement no_displacement() { return {constant(0.0), constant(0.0), constant(0.0)}; }
@@ -260,10 +204,10 @@ class LaneNumbers : public noise::ReliefFrame, public EnclosureRules {
             here.up = HWY_NAMESPACE::plus(here.up, second);
             here.down = HWY_NAMESPACE::plus(here.down, second);
             // Sines and angles are off by a few 2^-24 turns, slopes by as much times `wave`.
-            const float off = static_cast<float>(kStripeError * (1.0 + of.wave));
-            widen(here, hn::MulAdd(set(off), turn0, set(off)),
-                  hn::Mul(set(off * static_cast<float>(1.0 + of.wave)), hn::Add(place.e1, turn1)));
-            return limited(finished(here), set(-1.0f), set(1.0f));
+            const double off = kStripeError * (1.0 + of.wave), tilt = off * (1.0 + of.wave);
+            widen(here, hn::MulAdd(set(tilt), hn::Add(place.e0, turn0), set(off)),
+                  hn::Mul(set(tilt), hn::Add(place.e1, turn1)));
+            return between(finished(here), set(-1.0f), set(1.0f));
         };
         return {wave_of(sample.c, sample.c_x, sample.c_z, sample.c_dx, sample.c_dz),
                 wave_of(sample.s, sample.s_x, sample.s_z, sample.s_dx, sample.s_dz)};
@@ -273,7 +217,7 @@ class LaneNumbers : public noise::ReliefFrame, public EnclosureRules {
     Number input(std::size_t i, const Domain& at) const {
         ReliefPoints points = points_;
         points.active = counted_;
-        return of(plan_, part().inputs[i], at, points);
+        return of(plan_, this->part().inputs[i], at, points);
     }
 
     // The relief's part `index`, read at a domain.
@@ -293,54 +237,29 @@ class LaneNumbers : public noise::ReliefFrame, public EnclosureRules {
     }
 
   private:
-    // below and above: how far what is left out may go.
-    HWY_INLINE bool sees_within(Running& running, double cells, const Domain& at, FloatVec below, FloatVec above) {
-        const FloatTag d;
-        const FloatVec wave = set(cells);
-        const FloatVec ball = hn::MulAdd(at.stretch, points_.radius, at.slack.e0);
-        const auto fits = hn::Or(points_.whole, hn::Le(hn::Mul(wave, ball), set(kReliefCellsAhead)));
-        const auto closes = hn::AndNot(fits, running.open);
-        running.above = hn::Add(running.above, hn::IfThenElseZero(closes, above));
-        running.below = hn::Add(running.below, hn::IfThenElseZero(closes, below));
-        running.open = hn::And(running.open, fits);
-        counted_ = running.open;
-        return !hn::AllFalse(d, running.open);
-    }
-
-    // A function of the place, with the slopes by x and z at it, none steeper than `steepest`, and half_bend half the
-    // bound of its second derivative.
-    HWY_INLINE Number at_place(const Domain& at, FloatVec value, FloatVec by_x, FloatVec by_z, FloatVec steepest,
-                               FloatVec half_bend) const {
-        const FloatVec zero = hn::Zero(FloatTag());
-        Slack slack = {zero, zero, hn::Mul(half_bend, hn::Mul(at.stretch, at.stretch))};
-        if (at.is_plain) return {value, {by_x, zero, by_z}, slack, slack};
-        slack = HWY_NAMESPACE::plus(slack, times(at.slack, steepest));
-        slack.e0 = hn::MulAdd(half_bend, hn::Mul(at.slack.e0, at.slack.e0), slack.e0);
-        slack.e1 = hn::MulAdd(half_bend, hn::Mul(set(2.0f), hn::Mul(at.stretch, at.slack.e0)), slack.e1);
-        slack.e1 = hn::MulAdd(hn::Mul(set(kOperation), steepest), at.stretch, slack.e1);
-        return {value, mul_add(by_z, at.rows[2], HWY_NAMESPACE::scaled(at.rows[0], by_x)), slack, slack};
-    }
-
-    HWY_INLINE void count() {
-        const FloatTag d;
-        points_.counters->noise_evaluations += hn::CountTrue(d, counted_);
-        points_.counters->executed_lanes += hn::Lanes(d);
-        *points_.evaluations = hn::Add(*points_.evaluations, hn::IfThenElseZero(counted_, set(1.0f)));
-    }
-
-    const ReliefPlan& plan_;
-    std::size_t index_;
+    using Sums::at_place;
+    using Sums::between;
+    using Sums::count;
+    using Sums::counted_;
+    using Sums::finished;
+    using Sums::index_;
+    using Sums::plan_;
+    using Sums::points_;
+    using Sums::swing;
+    using Sums::turned;
 };
 
 template <bool kPlanar>
 Enclosure enclose(const ReliefPlan& plan, const WidePoint& x, double reach, const ReliefPoints& points) {
     Enclosure all =
         LaneNumbers<kPlanar>::of(plan, plan.relief->parts().size() - 1, LaneNumbers<kPlanar>::domain(x, reach), points);
+    check(all, points, points.active);
     // Of broken lanes nothing is known, at any distance.
     const FloatVec unknown = set(1e30f);
     const Slack none = {unknown, unknown, hn::Zero(FloatTag())};
-    all.up = choose(*points.broken, none, inflated(all.up));
-    all.down = choose(*points.broken, none, inflated(all.down));
+    all.up = choose(*points.broken, none, all.up);
+    all.down = choose(*points.broken, none, all.down);
+    all.gradient = GradientRules<false>::zero_where(*points.broken, all.gradient);
     return all;
 }
 

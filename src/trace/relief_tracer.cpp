@@ -18,8 +18,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace strata::trace::HWY_NAMESPACE {
 
-// What the next ball is to the step that was taken, and to a ball that left the sign in doubt. Speed only.
-constexpr float kGrow = 1.5f, kShrink = 0.25f;
+// What the next ball is to the step that was taken: where its bounds ended the step, and where the ball itself did; and
+// to a ball that left the sign in doubt. Speed only: of factors from 0.65 to 2.5 these took the fewest evaluations.
+constexpr float kAgain = 0.75f, kGrow = 1.2f, kShrink = 0.35f;
 
 // Rounding of base minus relief, both floats that have been rounded before.
 constexpr float kDifference = 0x1p-22f;
@@ -144,8 +145,9 @@ HWY_INLINE void step_relief(const Field& field, const TracePlan& constants, cons
     const auto goes_on = hn::AndNot(ends, moves);
     store_wide(select(widen(goes_on), clear, load_wide(packet.s_outside)), packet.s_outside);
     store_wide(select(widen(goes_on), landing, s), packet.s);
+    const FloatVec growth = hn::IfThenElse(hn::Lt(found.safe, hint), set(kAgain), set(kGrow));
     const FloatVec next = hn::IfThenElse(found.is_doubtful, hn::Mul(hint, set(kShrink)),
-                                         hn::Mul(hn::Add(found.safe, delta_float), set(kGrow)));
+                                         hn::Mul(hn::Add(found.safe, delta_float), growth));
     hn::Store(hn::Min(hn::Max(next, delta_float), set(1e15f)), d, packet.hint);
     if (hn::AllFalse(d, ends)) return;
     alignas(HWY_MAX_BYTES) float f[kMaxLanes], slope[kMaxLanes];

@@ -10,14 +10,15 @@
 #include <tuple>
 #include <vector>
 
+#include "tests/support/random.h"
+
 using namespace strata;
 using namespace strata::accel;
 
 namespace {
 
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); }
+using support::Random;
+using support::uniform;
 
 struct Sample {
     double u, v, t;

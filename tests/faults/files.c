@@ -136,8 +136,17 @@ size_t fwrite(const void* bytes, size_t size, size_t count, FILE* stream) {
         return REAL(name)()(descriptor);                    \
     }
 
-DEFINE_ON_DESCRIPTOR(fsync, kind_fsync)
-DEFINE_ON_DESCRIPTOR(fdatasync, kind_fsync)
+#define DEFINE_SYNC(name)                                         \
+    DECLARE_REAL(name)                                            \
+    int name(int descriptor) {                                    \
+        FAIL_IF(fault_of_descriptor(kind_fsync, descriptor), -1); \
+        const int result = REAL(name)()(descriptor);              \
+        if (result == 0) note_synced(descriptor);                 \
+        return result;                                            \
+    }
+
+DEFINE_SYNC(fsync)
+DEFINE_SYNC(fdatasync)
 
 #define DEFINE_TRUNCATE(name, offset_type)                           \
     DECLARE_REAL(name)                                               \

@@ -5,10 +5,12 @@
 #include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -74,18 +76,23 @@ static int error_of_call(enum kind kind, long number) {
     return 0;
 }
 
+static void __attribute__((format(printf, 1, 2))) write_log(const char* format, ...) {
+    if (plan.log < 0) return;
+    char line[1024];
+    va_list values;
+    va_start(values, format);
+    int length = vsnprintf(line, sizeof line, format, values);
+    va_end(values);
+    if (length >= (int)sizeof line) length = sizeof line - 1;
+    syscall(SYS_write, plan.log, line, (size_t)length);
+}
+
 int fault_of(enum kind kind, const char* what) {
     const int interrupted_errno = errno;
     the_plan();
     const long number = atomic_fetch_add(&calls[kind], 1) + 1;
     const int error = error_of_call(kind, number);
-    if (plan.log >= 0) {
-        char line[1024];
-        int length =
-            snprintf(line, sizeof line, "%s %ld %s %s\n", kind_names[kind], number, error ? "failed" : "called", what);
-        if (length >= (int)sizeof line) length = sizeof line - 1;
-        syscall(SYS_write, plan.log, line, (size_t)length);
-    }
+    write_log("%s %ld %s %s\n", kind_names[kind], number, error ? "failed" : "called", what);
     if (error == kKill) kill(getpid(), SIGKILL);
     errno = interrupted_errno;
     return error;
@@ -104,4 +111,15 @@ int fault_of_descriptor(enum kind kind, int descriptor) {
     char path[512];
     path_of(descriptor, path, sizeof path);
     return fault_of(kind, path);
+}
+
+void note_synced(int descriptor) {
+    const int interrupted_errno = errno;
+    char path[512];
+    struct stat status;
+    path_of(descriptor, path, sizeof path);
+    if (fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode)) {
+        write_log("synced %ld %s\n", (long)status.st_size, path);
+    }
+    errno = interrupted_errno;
 }

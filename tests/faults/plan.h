@@ -4,7 +4,8 @@
 //                                    disk. KIND is a name in plan.c, ERROR an errno's name in plan.c, or SHORT: a write
 //                                    of half the bytes, or KILL: the process ends there, as by a crash. Several, with
 //                                    commas between, at once
-//   STRATA_TEST_FAULT_LOG=FILE       gets a line for every call that counts: kind, number, "failed" or "called", what
+//   STRATA_TEST_FAULT_LOG=FILE       gets a line for every call that counts: kind, number, "failed" or "called", what;
+//                                    and one for what is on the disk from then on: "synced", bytes, path
 //   STRATA_TEST_SPAWN_PAUSE=S        posix_spawn() returns S seconds after the program was started, or when a signal
 //                                    comes
 //   STRATA_TEST_THREADS=K            pthread_create() fails, as under a limit of processes, while K threads are alive
@@ -77,3 +78,6 @@ int fault_of_descriptor(enum kind kind, int descriptor);
             return failed;          \
         }                           \
     } while (0)
+
+// Writes to the log how much of a file outlives a power cut.
+void note_synced(int descriptor);

@@ -7,7 +7,7 @@ here=${BASH_SOURCE[0]%/*}
 # shellcheck source=tests/tools/cli_checks.sh
 . "$here/../tools/cli_checks.sh"
 preload=$(readlink -f -- "${2:?usage: ${0##*/} PROGRAM PRELOAD [--many]}")
-many=${3-}
+many=${3:+1}  # in arithmetic, too
 
 # A journal is written all the time.
 every=(--journal-every 1e-9)
@@ -92,6 +92,43 @@ check_moments() { # case
     echo "$1: $kills kills at random, $resumed of $i gone on with" >&2
 }
 
+# Of the journal a power cut leaves what was synchronised, and of what was written since nothing, a part, or zeros; of
+# hidden files it may leave anything, which is worth nothing.
+cut_power() { # log journal
+    local synced size
+    find . -maxdepth 1 -name '.strata-*' -delete
+    synced=$(sed -n 's|^synced \([0-9]*\) .*[.]journal\(.new\)*$|\1|p' "$1" | tail -n 1)
+    [[ -e $2 ]] || return 0
+    [[ $synced ]] || { rm "$2" && return; }
+    size=$(stat -c %s "$2")
+    truncate -s $((synced + RANDOM % (size - synced + 1))) "$2"
+    ((RANDOM % 2)) || truncate -s "$size" "$2"
+}
+
+# Power is cut at the n-th write, for many n, once and, while it is gone on with, again.
+check_power() { # case
+    local n writes step resumed=0 output
+    make_whole "$1"
+    STRATA_TEST_FAULT_LOG=log LD_PRELOAD=$preload render "$1" --quiet "${every[@]}"
+    writes=$(grep -c '^write ' log)
+    expect_match "$1 synchronises its journal" "$(grep -c '^synced .*journal' log)" '[1-9]*'
+    step=$((many ? 1 : writes / 3 + 1))
+    for ((n = 1; n <= writes; n += step)); do
+        rm -f ./*.* log
+        STRATA_TEST_FAULT_LOG=log killed_at_write "$n" "$1"
+        cut_power log a.exr.journal
+        STRATA_TEST_FAULT_LOG=log killed_at_write $((n / 2 + 1)) "$1"
+        cut_power log a.exr.journal
+        output=$(render "$1" "${every[@]}")
+        [[ $output != *resumed* ]] || resumed=$((resumed + 1))
+        expect_whole "$1 whose power was cut at write $n of $writes" "$1"
+    done
+    echo "$1: $writes power cuts, $resumed gone on with" >&2
+    expect_match "$1 is resumed after a power cut" "$resumed" '[1-9]*'
+}
+
+check_power_streamed() { check_power streamed; }
+check_power_passes() { check_power passes; }
 check_writes_streamed() { check_writes streamed; }
 check_writes_formats() { check_writes formats; }
 check_writes_costs() { check_writes costs; }
@@ -202,7 +239,7 @@ check_in_use() {
     wait "$pid"
 }
 
-groups=(check_writes_streamed check_writes_passes check_moments_streamed check_others check_damage check_signals check_in_use check_no_place
+groups=(check_power_streamed check_writes_streamed check_writes_passes check_moments_streamed check_others check_damage check_signals check_in_use check_no_place
     check_writes_shared check_writes_costs)
-[[ ! $many ]] || groups+=(check_writes_formats check_writes_crop check_writes_weighted check_writes_target check_moments_passes)
+[[ ! $many ]] || groups+=(check_writes_formats check_writes_crop check_writes_weighted check_writes_target check_moments_passes check_power_passes)
 run_groups "${groups[@]}"

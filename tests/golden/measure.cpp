@@ -14,7 +14,7 @@ namespace {
 integrate::ChannelSet channels_of(const GoldenScene& golden) {
     std::vector<const integrate::Channel*> channels;
     for (const std::string& name : golden.channels) channels.push_back(integrate::find_channel(name));
-    return integrate::ChannelSet(channels);
+    return integrate::ChannelSet(channels, scene::names_of(scene_of(golden).ground));
 }
 
 render::RenderResult render_golden(const GoldenScene& golden, const scene::Scene& scene, const Cut& cut) {
@@ -55,14 +55,10 @@ Record record_of(const GoldenScene& golden, const render::RenderResult& result, 
                                     channel_digest(result.film, channels.values(), entry));
     }
     const integrate::Counters& c = result.counters;
-    record.counts = {{"total.rays", c.rays},
-                     {"total.hits", c.hits},
-                     {"total.shadow_rays", c.shadow_rays},
-                     {"total.sky_rays", c.sky_rays},
-                     {"total.unresolved_rays", c.unresolved_rays},
-                     {"total.evaluations", c.noise_evaluations},
-                     {"total.steps", c.steps},
-                     {"total.executed_lanes", c.executed_lanes}};
+    for (const auto& [name, count] : integrate::kCounters) {
+        const std::string pinned = name == std::string_view("noise_evaluations") ? "evaluations" : name;
+        record.counts.emplace_back("total." + pinned, c.*count);
+    }
     for (std::size_t i = 0; i < integrate::kPhases; ++i) {
         const integrate::PhaseCost& cost = c.phases[i];
         const std::string phase = phase_key(static_cast<integrate::Phase>(i));

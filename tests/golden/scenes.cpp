@@ -1,58 +1,33 @@
 #include "tests/golden/scenes.h"
 
-#include <initializer_list>
-
 #include "src/scene/override.h"
 #include "src/scene/toml_reader.h"
 #include "src/scene/validate.h"
+#include "tests/golden/scene_keys.h"
 
 namespace strata::golden {
 
 namespace {
-
-using Keys = std::vector<std::string>;
-
-Keys operator+(Keys keys, const Keys& more) {
-    keys.insert(keys.end(), more.begin(), more.end());
-    return keys;
-}
-
-const Keys kSurface{"film.width=36", "film.height=20", "sampling.N=2", "sun.intensity=4"};
-
-const Keys kTerrain =
-    kSurface + Keys{"surface.kind=terrain", "surface.amplitude=1.5",          "surface.frequency=0.2",
-                    "surface.gain=0.47",    "camera.position=[0,1.2,0]",      "camera.look_at=[1,0.75,6]",
-                    "camera.far=200",       "sun.direction=[-0.8,0.42,0.35]", "sky.haze_distance=60"};
-
-const Keys kHyperterrain =
-    kSurface + Keys{"surface.kind=hyperterrain", "camera.position=[0.3,0.9,0.1]", "camera.look_at=[0.3,0.75,1.1]",
-                    "camera.far=60", "sun.direction=[0.6,0.5,-0.3]"};
-
-const Keys kPlanet = kSurface + Keys{"surface.kind=planet",      "surface.radius=2", "surface.amplitude=0.3",
-                                     "surface.frequency=1.2",    "surface.seed=3",   "camera.position=[0.5,1,-6]",
-                                     "camera.look_at=[0,0,0]",   "camera.far=30",    "sun.direction=[-7,3.5,1]",
-                                     "material.band_height=0.05"};
-
-const Keys kIsosurface =
-    kSurface + Keys{"surface.kind=isosurface", "surface.threshold=0.2",        "surface.bound_size=[1.6,1.6,1.6]",
-                    "surface.amplitude=1",     "surface.frequency=1.7",        "surface.gain=0.45",
-                    "surface.seed=9",          "camera.position=[0,2,-5]",     "camera.look_at=[0,0,0]",
-                    "camera.far=20",           "sun.direction=[-0.5,0.8,-0.6]"};
-
-const std::vector<std::string> kCosts{"steps", "evals"};
-const std::vector<std::string> kGeometry{"Z", "depth", "P", "N", "motion", "samples"};
-const std::vector<std::string> kLight{"albedo", "sun", "sky", "air", "background", "shadow", "height", "slope"};
-const Keys kOneOctave{"surface.octaves=1"};
-const Keys kSixteenOctaves{"surface.octaves=16", "sampling.N=1"};
-const Keys kNoShadows{"sun.shadows=false"};
-const Keys kStratified{"sampling.estimator=stratified"};
-const Keys kShutter{"shutter.open_s=0.03", "shutter.frame=7"};
 
 // Past an instant in the middle, when the shutter is open.
 Keys camera_keys(const std::string& from, const std::string& to) {
     return {"camera.keys=[{time_s=0.2,position=" + from + "},{time_s=0.4,position=" + to +
             ",fov_deg=40},{time_s=0.9}]"};
 }
+
+const std::string kTwoClouds = R"([[clouds]]
+name = "low"
+altitude_m = 900.0
+coverage = 0.5
+size_m = 700.0
+warp_m = 90.0
+[[clouds]]
+name = "high"
+altitude_m = 7000.0
+depth = 1.0
+size_m = 9000.0
+stretch = 4.0
+)";
 
 std::vector<GoldenScene> grounds() {
     const Keys flight = camera_keys("[0,1.2,0]", "[0.5,1.1,1]");
@@ -185,6 +160,23 @@ std::vector<GoldenScene> daylights() {
         {.name = "daylight_fog",
          .keys = daylight + kStratified +
                  Keys{"fog.visibility_m=3000", "fog.level_m=20", "fog.fall_m=60", "fog.rise_m=30", "fog.patch_m=900"}},
+        {.name = "daylight_clouds",
+         .keys = daylight + kStratified,
+         .channels = {"cloud", "sun", "air", "background"},
+         .relief = kTwoClouds},
+        {.name = "clouds_from_above",
+         .keys = daylight + kShutter + camera_keys("[0,6,0]", "[0,2,1]") +
+                 Keys{"sky.light=rays", "camera.look_at=[0,0,7]", "fog.visibility_m=3000", "fog.fall_m=60"},
+         .relief = kTwoClouds},
+        {.name = "fog_shafts",
+         .keys = kTerrain + Keys{"scale.metres=300", "fog.visibility_m=3000", "fog.level_m=100", "fog.fall_m=60",
+                                 "fog.rise_m=30", "fog.patch_m=900", "fog.shafts=true"},
+         .channels = {"air", "steps", "evals"}},
+        {.name = "daylight_shafts",
+         .keys = daylight + kStratified +
+                 Keys{"fog.visibility_m=3000", "fog.level_m=100", "fog.fall_m=60", "fog.shafts=true",
+                      "sun.angular_radius_deg=1", "water.present=true", "water.level_m=90"},
+         .relief = kTwoClouds},
         {.name = "even_fog", .keys = kTerrain + Keys{"scale.metres=300", "fog.visibility_m=5000", "fog.forward=0"}},
         {.name = "daylight_no_shadows",
          .keys = daylight + kNoShadows + Keys{"surface.kind=hyperterrain", "surface.rotation_deg=[10,40,-15]"}},
@@ -215,151 +207,56 @@ std::vector<GoldenScene> soft_lights() {
     };
 }
 
+// Level water: like glass with its bed near, with waves under daylight and by sky rays, and as a layer of light.
+std::vector<GoldenScene> waters() {
+    const Keys water{"water.present=true", "water.level_m=0.3"};
+    const Keys shallow = kTerrain + water + Keys{"water.wind_m_s=0", "water.absorption=[0.9,0.3,0.2]"};
+    const Keys waves{"water.level_m=90", "water.wind_m_s=4", "water.waves_m=50", "sky.model=daylight",
+                     "scale.metres=300"};
+    return {
+        {.name = "water", .keys = shallow + kStratified, .channels = kCosts},
+        {.name = "water_waves", .keys = kTerrain + water + waves},
+        {.name = "water_sky_rays",
+         .keys = shallow + Keys{"sky.light=rays", "water.wind_m_s=1", "sun.angular_radius_deg=0.27"},
+         .crop = film::Rect{8, 9, 24, 17}},
+        {.name = "water_layers",
+         .keys = kTerrain + water + waves + kStratified,
+         .channels = {"sun", "sky", "water", "air", "background", "P", "N"}},
+    };
+}
+
 // Composed reliefs: every type of term, over the plane and in space.
 std::vector<GoldenScene> reliefs() {
-    const std::string crests = R"([[relief]]
-name = "crests"
-type = "ridged"
-octaves = 4
-frequency = 0.3
-seed = 7
-[[relief]]
-name = "bent"
-type = "warp"
-of = ["crests"]
-amplitude = 0.5
-)";
-    const std::string landform = crests + R"([[relief]]
-name = "massif"
-type = "envelope"
-of = ["bent"]
-z = 5.0
-[[relief]]
-name = "level"
-type = "fill"
-of = ["massif"]
-[[relief]]
-name = "carved"
-type = "gullies"
-of = ["level", "crests"]
-octaves = 2
-[[relief]]
-name = "rough"
-type = "fbm"
-octaves = 4
-amplitude = 0.03
-frequency = 2.0
-[[relief]]
-name = "all"
-type = "sum"
-of = ["carved", "rough"]
-)";
-    const std::string shapes = R"([[relief]]
-name = "hills"
-type = "hybrid"
-octaves = 3
-turn_deg = 30.0
-[[relief]]
-name = "cushions"
-type = "billow"
-octaves = 3
-amplitude = 0.4
-[[relief]]
-name = "stepped"
-type = "terraces"
-of = ["hills"]
-[[relief]]
-name = "cliffs"
-type = "curve"
-of = ["stepped"]
-[[relief]]
-name = "higher"
-type = "highest"
-of = ["cliffs", "cushions"]
-[[relief]]
-name = "mixed"
-type = "blend"
-of = ["higher", "hills", "cushions"]
-from = 0.1
-to = 0.2
-[[relief]]
-name = "cut"
-type = "lowest"
-of = ["mixed", "hills"]
-[[relief]]
-name = "weighed"
-type = "product"
-of = ["cut", "cushions"]
-)";
-    const std::string places = shapes + R"([[relief]]
-name = "dunes"
-type = "dunes"
-[[relief]]
-name = "craters"
-type = "craters"
-octaves = 3
-[[relief]]
-name = "far"
-type = "ramp"
-height = 0.5
-[[relief]]
-name = "all"
-type = "sum"
-of = ["weighed", "dunes", "craters", "far"]
-)";
     const Keys above{"camera.position=[0,2.5,0]", "sampling.N=1"};
     return {
         {.name = "relief_shapes_in_space",
          .keys = kHyperterrain + Keys{"camera.position=[0.3,2.5,0.1]", "sampling.N=1"},
          .crop = film::Rect{12, 8, 22, 13},
-         .relief = shapes},
-        {.name = "relief_places", .keys = kTerrain + above, .crop = film::Rect{12, 8, 22, 13}, .relief = places},
-        {.name = "relief_ridged_warp", .keys = kTerrain + above, .relief = crests},
-        {.name = "relief_landform", .keys = kTerrain + above, .crop = film::Rect{12, 8, 22, 13}, .relief = landform},
+         .relief = kShapes},
+        {.name = "relief_places", .keys = kTerrain + above, .crop = film::Rect{12, 8, 22, 13}, .relief = kPlaces},
+        {.name = "relief_ridged_warp", .keys = kTerrain + above, .relief = kCrests},
+        {.name = "relief_landform", .keys = kTerrain + above, .crop = film::Rect{12, 8, 22, 13}, .relief = kLandform},
         {.name = "relief_in_space",
          .keys = kHyperterrain + Keys{"camera.position=[0.3,2.5,0.1]", "sampling.N=1"},
-         .relief = crests},
+         .relief = kCrests},
     };
 }
 
 // Layers of ground: every kind of mask, rough and smooth, over a height field, a planet and ground that drifts.
 std::vector<GoldenScene> layers() {
-    const std::string ground = R"([[ground]]
-name = "rock"
-kind = "granite"
-tone = 0.8
-tone_size = 0.7
-tone_stretch = 0.5
-[[ground]]
-name = "beds"
-kind = "red_sandstone"
-strata_from = 0.0
-strata_thickness = 0.2
-strata_warp = 0.1
-[[ground]]
-name = "grass"
-kind = "grass"
-cover = 0.9
-slope_to_deg = 30.0
-slope_noise_deg = 5.0
-noise_from = -0.5
-[[ground]]
-name = "snow"
-kind = "fresh_snow"
-height_from = 0.4
-height_noise = 0.1
-aspect = [0.8, 0.0, -0.35]
-facing_from = -0.1
-noise_size = 0.5
-)";
     return {
-        {.name = "ground", .keys = kTerrain, .relief = ground},
+        {.name = "ground", .keys = kTerrain, .relief = kGround},
         {.name = "ground_rough_drift",
          .keys = kTerrain + kShutter + kStratified + Keys{"ground.rock.roughness=0.7", "surface.drift=[3,0,2]"},
-         .relief = ground},
+         .relief = kGround},
+        {.name = "ground_mattes", .keys = kTerrain, .channels = {"mask", "cryptomatte"}, .relief = kGround},
+        {.name = "ground_mattes_stratified",
+         .keys = kTerrain + kStratified,
+         .channels = {"cryptomatte", "albedo", "mask"},
+         .relief = kGround},
         {.name = "ground_planet",
          .keys = kPlanet + Keys{"ground.snow.height_from=0.02", "ground.beds.roughness=0.3", "sampling.N=1"},
-         .relief = ground},
+         .relief = kGround},
     };
 }
 
@@ -367,7 +264,7 @@ noise_size = 0.5
 
 std::vector<GoldenScene> golden_scenes() {
     std::vector<GoldenScene> all;
-    for (auto* group : {grounds, bodies, extremes, estimators, daylights, soft_lights, reliefs, layers}) {
+    for (auto* group : {grounds, bodies, extremes, estimators, daylights, soft_lights, waters, reliefs, layers}) {
         for (GoldenScene& golden : group()) all.push_back(std::move(golden));
     }
     return all;

@@ -18,7 +18,8 @@ struct GoldenScene {
     std::optional<film::Rect> crop{};     // half-open; nothing: the whole frame
     std::vector<std::string> channels{};  // of each pixel as well
     integrate::Tracer tracer = integrate::Tracer::fast;
-    std::string relief{};  // [[relief]] terms, as in a scene file; empty: the sum of octaves of the keys
+    std::string
+        relief{};  // [[relief]] terms or other lists, as in a scene file; no terms: the sum of octaves of the keys
 };
 
 // Their names differ and name files.

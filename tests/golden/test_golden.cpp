@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "shaders_cpu/scene_parts.h"
+#include "src/integrate/channels.h"
 #include "src/scene/enum_names.h"
 #include "src/scene/relief_keys.h"
 #include "tests/golden/check.h"
@@ -62,6 +64,22 @@ TEST_CASE("every type of relief term has a golden scene") {
         for (const noise::ReliefTerm& term : scene_of(golden).surface.relief) left.erase(types[term.node.index()]);
     }
     CHECK(left.empty());
+}
+
+TEST_CASE("every light, background, medium, material and channel has a golden scene") {
+    std::set<std::string> left;
+    for (const shaders::ScenePart& part : shaders::scene_parts({})) left.insert(part.name);
+    for (const integrate::Channel& channel : integrate::all_channels())
+        left.insert("--aov " + std::string(channel.name));
+    for (const GoldenScene& golden : golden_scenes()) {
+        for (const std::string& channel : golden.channels) left.erase("--aov " + channel);
+        const scene::Scene scene = scene_of(golden);
+        if (scene.image != scene::ImageKind::surface) continue;
+        for (const shaders::ScenePart& part : shaders::scene_parts(scene)) {
+            if (part.is_needed) left.erase(part.name);
+        }
+    }
+    for (const std::string& name : left) FAIL_CHECK("no golden scene has " << name);
 }
 
 TEST_CASE("golden scenes have names of their own and every phase of a render works in one of them") {

@@ -31,14 +31,13 @@ float luminance(const glm::vec3& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0
 }  // namespace
 
 TEST_CASE("at the eye the air takes and adds nothing, far away it is all that is seen") {
-    const DaylightScene daylight = daylight_of(daylight_scene());
+    const DaylightScene air = daylight_of(daylight_scene());
     const glm::dvec3 level = glm::normalize(glm::dvec3(0.3, 0.02, 1.0));
     const glm::vec3 ground{0.2f, 0.1f, 0.05f};
-    CHECK(daylight.air_along(level, 0.0).over(ground) == ground);
-    const glm::vec3 near = daylight.air_along(level, 10.0).over(ground),
-                    far = daylight.air_along(level, 1e5).over(ground);
+    CHECK(air.air_along(level, 0.0).over(ground) == ground);
+    const glm::vec3 near = air.air_along(level, 10.0).over(ground), far = air.air_along(level, 1e5).over(ground);
     CHECK(glm::length(near - ground) < glm::length(far - ground));
-    CHECK(luminance(far) == doctest::Approx(luminance(daylight.sky(level))).epsilon(0.1));
+    CHECK(luminance(far) == doctest::Approx(luminance(air.sky(level))).epsilon(0.1));
 }
 
 TEST_CASE("metres in a surface unit set how blue distance is, and the altitude how thin the air") {

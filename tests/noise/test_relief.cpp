@@ -12,15 +12,14 @@
 #include "noise/relief/curves-inl.h"
 #include "noise/relief/hermite-inl.h"
 #include "noise/relief/pits.h"
+#include "noise/relief/steps-inl.h"
 #include "noise/relief/stripe.h"
+#include "tests/support/random.h"
 
 namespace {
 
 using namespace strata::noise;
-
-double uniform(std::mt19937_64& random, double lo, double hi) {
-    return std::uniform_real_distribution<double>(lo, hi)(random);
-}
+using strata::support::uniform;
 
 std::vector<std::vector<ReliefTerm>> general_reliefs() {
     Ridged ridged, sharp, even;
@@ -158,6 +157,7 @@ TEST_CASE("a curve's value, slope and bends stay within its bounds on any interv
     };
     for (const double roundness : {0.01, 0.05, 0.3, 0.9}) check(RidgeCurve{roundness}, -1.0, 1.0);
     check(SoftClip{}, 0.0, 4.0);
+    check(SoftClip{5.0}, 0.0, 1.0);
     check(FillCurve{0.2, 0.1}, -2.0, 2.0);
     check(FillCurve{-1.0, 0.01}, -2.0, 2.0);
     for (const double roundness : {0.02, 0.3}) check(BillowCurve{roundness, 1.2}, -1.0, 1.0);
@@ -221,4 +221,25 @@ TEST_CASE("a relief of no terms, of an unknown name or of too many inputs is ref
     CHECK_THROWS_AS(Relief(unknown, 2), std::invalid_argument);
     const std::vector<ReliefTerm> crowded{{"a", {}, Fbm{}}, {"b", {"a"}, Fbm{}}};
     CHECK_THROWS_AS(Relief(crowded, 2), std::invalid_argument);
+}
+
+TEST_CASE("a curve rises from knot to knot where float can hardly tell its knots apart") {
+    std::mt19937_64 random(11);
+    for (int trial = 0; trial < 2000; ++trial) {
+        Curve curve{{1.0}, {0.0}};
+        while (curve.from.size() < 8) {
+            curve.from.push_back(curve.from.back() + uniform(random, 0.7e-7, 4e-7));
+            curve.to.push_back(curve.to.back() + uniform(random, 0.0, 1.0));
+        }
+        curve.prepare();
+        if (!curve.problem().empty()) continue;
+        const strata::noise::HWY_NAMESPACE::HermiteCurve drawn{curve.table};
+        double before = drawn.value(curve.from.front());
+        for (int i = 1; i <= 400; ++i) {
+            const double v = curve.from.front() + i * (curve.from.back() - curve.from.front()) / 400.0;
+            const double value = drawn.value(v);
+            CHECK_MESSAGE(value >= before - 1e-6, trial, " ", i);
+            before = value;
+        }
+    }
 }

@@ -34,12 +34,10 @@ RenderResult render_scene(const scene::Scene& scene) {
 }
 
 void check_same_counts(const Counters& a, const Counters& b) {
-    CHECK(a.rays == b.rays);
-    CHECK(a.shadow_rays == b.shadow_rays);
-    CHECK(a.hits == b.hits);
-    CHECK(a.noise_evaluations == b.noise_evaluations);
-    CHECK(a.executed_lanes == b.executed_lanes);
-    CHECK(a.steps == b.steps);
+    for (const auto& [name, count] : kCounters) {
+        CAPTURE(name);
+        CHECK(a.*count == b.*count);
+    }
 }
 
 void check_same_render(const scene::Scene& a, const scene::Scene& b) {

@@ -8,19 +8,23 @@
 #include "src/render/render.h"
 #include "src/scene/builtin.h"
 #include "src/scene/toml_reader.h"
+#include "tests/support/builtins.h"
 
 using namespace strata;
 
 namespace {
 
 // Layers and colour are sums of the same products in another order. With u = 2^-24, a sample's colour is
-// ((R L) S + air) T + fog in float, L being a sum of at most four terms: three additions, three products and two more
-// additions are within 8 u of the exact value of terms that are not negative. A layer is ((R x) S) T, x being a sum of
-// at most two of these terms: within 4 u; air is within 2 u. Means in double by equal weights keep these shares, and
-// each pixel of colour and layers is rounded once: 8 + 4 + 2 units of the sum.
-constexpr double kLayerError = 14 * 0x1p-24;
+// (((R L) T1 + A1) T2 + A2) ... in float through M media, L being a sum of at most four terms: three additions, a
+// product and, for each medium, a product and an addition are within (4 + 2 M) u of the exact value of terms that are
+// not negative. A layer is ((R x) T1) T2 ..., x being a sum of at most two of these terms: within (2 + M) u; the
+// media's own light is within 2 (M - 1) u, which is no more for M <= 4: air, fog, and clouds on both sides of it. Means
+// in double by equal weights keep these shares, and each pixel of colour and layers is rounded once: 6 + 3 M + 2 units
+// of the sum.
+constexpr double kMostMedia = 4;
+constexpr double kLayerError = (8 + 3 * kMostMedia) * 0x1p-24;
 
-constexpr std::array kLayers{"sun", "sky", "bounce", "air", "background"};
+constexpr std::array kLayers{"sun", "sky", "bounce", "air", "background", "water"};
 
 integrate::ChannelSet layers() {
     std::vector<const integrate::Channel*> channels;
@@ -59,10 +63,10 @@ double largest_error(const film::Film& film, std::array<double, kLayers.size()>&
 
 }  // namespace
 
-TEST_CASE("sun, sky, bounce, air and background add up to the picture, in every built-in scene") {
+TEST_CASE("sun, sky, bounce, air, background and water add up to the picture, in every built-in scene") {
     std::array<double, kLayers.size()> used{};
     double largest = 0.0;
-    for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
+    for (const scene::BuiltinScene& builtin : support::builtins_to_render()) {
         CAPTURE(builtin.name);
         const scene::Scene scene = scene::read_scene(builtin.text, builtin.name);
         for (const auto estimator : {scene::EstimatorKind::stratified, scene::EstimatorKind::shared_sobol}) {
@@ -72,7 +76,7 @@ TEST_CASE("sun, sky, bounce, air and background add up to the picture, in every 
         }
     }
     MESSAGE("largest error: " << largest << " of the bound, " << largest * kLayerError * 0x1p23 << " of 2^-23");
-    for (const std::size_t layer : {0, 1, 3, 4}) CHECK(used[layer] > 0.0);
+    for (const std::size_t layer : {0, 1, 3, 4, 5}) CHECK(used[layer] > 0.0);
 }
 
 TEST_CASE("layers of a scene without sun, sky or air are black, and the picture is the rest") {
@@ -98,7 +102,7 @@ TEST_CASE("layers add up where a soft sun, sky rays and reflected light are in t
         scene.sun.angular_radius_deg = 3.0;
         std::array<double, kLayers.size()> used{};
         CHECK(largest_error(small_render(scene, scene::EstimatorKind::stratified).film, used) <= 1.0);
-        for (const double sum : used) CHECK(sum > 0.0);
+        for (const std::size_t layer : {0, 1, 2, 3, 4}) CHECK(used[layer] > 0.0);
     }
 }
 
@@ -115,5 +119,38 @@ TEST_CASE("layers add up where fog is before the ground and the sky") {
         CHECK(largest_error(small_render(without, scene::EstimatorKind::stratified).film, clear) <= 1.0);
         CHECK(used[3] > clear[3]);
         CHECK(used[4] < clear[4]);
+    }
+}
+
+TEST_CASE("layers add up where the fog has shafts, which are the air's, and shadows make it darker") {
+    scene::Scene scene = scene::read_scene(scene::find_builtin("terrain")->text, "terrain");
+    scene.scale.metres = 300.0;
+    scene.sun.direction = {-0.8, 0.04, 0.35};
+    scene.fog = {.visibility_m = 3000.0, .level_m = 150.0, .fall_m = 120.0, .shafts = true};
+    for (const auto model : {scene::SkyModel::gradient, scene::SkyModel::daylight}) {
+        scene.sky.model = model;
+        std::array<double, kLayers.size()> shadowed{}, lit{};
+        CHECK(largest_error(small_render(scene, scene::EstimatorKind::stratified).film, shadowed) <= 1.0);
+        scene::Scene open = scene;
+        open.sun.shadows = false;
+        CHECK(largest_error(small_render(open, scene::EstimatorKind::stratified).film, lit) <= 1.0);
+        CHECK(shadowed[3] < 0.99 * lit[3]);
+    }
+}
+
+TEST_CASE("layers add up where clouds are before ground and sky, from below and from above, with fog between") {
+    scene::Scene scene = scene::read_scene(scene::find_builtin("terrain")->text, "terrain");
+    scene.scale.metres = 300.0;
+    scene.sky.model = scene::SkyModel::daylight;
+    scene.sky.light = scene::SkyLight::rays;
+    scene.fog = {.visibility_m = 30'000.0, .level_m = 20.0, .fall_m = 60.0, .rise_m = 30.0, .patch_m = 900.0};
+    scene.clouds = {{.name = "low", .altitude_m = 500.0, .coverage = 0.6, .size_m = 900.0},
+                    {.name = "high", .altitude_m = 3000.0, .depth = 1.0, .size_m = 4000.0}};
+    for (const double up : {0.0, 4.0}) {
+        scene.camera.position.y += up;
+        std::array<double, kLayers.size()> used{};
+        CHECK(largest_error(small_render(scene, scene::EstimatorKind::stratified).film, used) <= 1.0);
+        for (const std::size_t layer : {0, 1, 2, 3}) CHECK(used[layer] > 0.0);
+        CHECK((used[4] > 0.0) == (up == 0.0));  // from above no sky is seen
     }
 }

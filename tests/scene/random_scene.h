@@ -11,10 +11,11 @@
 #include <vector>
 
 #include "src/scene/keys.h"
+#include "tests/support/random.h"
 
 namespace strata::scene {
 
-using Random = std::mt19937_64;
+using support::Random;
 
 inline double random_number(Range range, Random& random) {
     const double u = std::uniform_real_distribution<double>(0.0, 1.0)(random);

@@ -12,17 +12,18 @@
 #include "src/scene/toml_reader.h"
 #include "src/scene/validate.h"
 #include "tests/scene/random_scene.h"
+#include "tests/support/random.h"
 
 using namespace strata::scene;
 
 namespace {
 
+using strata::support::uniform;
+
 std::array<double, 7> numbers(const Camera& camera) {
     return {camera.position.x, camera.position.y, camera.position.z, camera.look_at.x,
             camera.look_at.y,  camera.look_at.z,  camera.fov_deg};
 }
-
-double uniform(Random& random, double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); }
 
 Camera random_camera(Random& random, Interpolation interpolation) {
     Camera camera;

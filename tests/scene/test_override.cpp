@@ -3,6 +3,8 @@
 #include <string>
 
 #include "src/scene/override.h"
+#include "src/scene/printer.h"
+#include "src/scene/relief_keys.h"
 
 using namespace strata::scene;
 
@@ -25,7 +27,7 @@ std::string error_of(const std::string& assignment, const std::string& option = 
 }
 
 const std::string kSections =
-    "film, sampling, shutter, camera, surface, scale, sun, sky, fog, material, zoneplate, checker, wheel, "
+    "film, sampling, shutter, camera, surface, scale, sun, sky, fog, water, material, zoneplate, checker, wheel, "
     "edge, ramp, constant";
 
 }  // namespace
@@ -111,4 +113,24 @@ TEST_CASE("what has no key, no value or more than one value is refused") {
     CHECK(error_of("title=\"half quoted").find("not a value (\"half quoted)") != std::string::npos);
     CHECK(error_of("title=two\nlines").find("not a value (two\\u000Alines)") != std::string::npos);
     CHECK(error_of("title=broken \xff UTF-8").find("not a value") != std::string::npos);
+}
+
+TEST_CASE("relief.seed moves the seeds of all terms, so that equal ones stay equal") {
+    Scene scene;
+    scene.surface.relief = {default_relief_term(0), default_relief_term(0), default_relief_term(0)};
+    for (int i = 0; i < 3; ++i) {
+        scene.surface.relief[static_cast<std::size_t>(i)].name = std::string(1, static_cast<char>('a' + i));
+        apply_override(scene, std::string("relief.") + static_cast<char>('a' + i) + (i == 2 ? ".seed=9" : ".seed=4"));
+    }
+    Scene moved = scene, one_by_one = scene;
+    apply_override(moved, "relief.seed=3");
+    for (const char* assignment : {"relief.a.seed=7", "relief.b.seed=7", "relief.c.seed=12"})
+        apply_override(one_by_one, assignment);
+    CHECK(print_scene(moved) == print_scene(one_by_one));
+    CHECK(print_scene(moved) != print_scene(scene));
+    apply_override(scene, "relief.c.seed=9223372036854775807");
+    CHECK_THROWS_WITH_AS(apply_override(scene, "relief.seed=1"), doctest::Contains("relief.seed: out of range"),
+                         SceneError);
+    CHECK_THROWS_WITH_AS(apply_override(scene, "relief.seed=-1"), doctest::Contains("relief.seed"), SceneError);
+    CHECK(error_of("relief.seed=1").find("the scene has no [[relief]]") != std::string::npos);
 }

@@ -110,6 +110,21 @@ TEST_CASE("every printed key has its value and a comment with what it allows, it
           std::string::npos);
 }
 
+TEST_CASE("of terms that have the same keys, the first alone explains them, and all give their values") {
+    Scene scene;
+    scene.sky.model = SkyModel::daylight;
+    for (const char* name : {"low", "middle", "high"}) scene.clouds.push_back({.name = name, .coverage = 0.125});
+    const std::string text = print_scene(scene);
+    const auto times = [&](std::string_view words) {
+        int found = 0;
+        for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++found;
+        return found;
+    };
+    CHECK(times("\ncoverage = 0.125") == 3);
+    CHECK(times("share of the sky where there is cloud") == 1);
+    CHECK(read_scene(text, "printed").clouds.size() == 3);
+}
+
 TEST_CASE("only keys that matter to the picture are printed, unless they were changed") {
     Scene scene;
     const std::string terrain = print_scene(scene);

@@ -8,6 +8,7 @@
 #include "src/scene/relief_keys.h"
 #include "src/scene/toml_reader.h"
 #include "src/scene/validate.h"
+#include "tests/scene/refused_text.h"
 
 namespace {
 
@@ -25,22 +26,6 @@ type = "warp"
 of = ["crests"]
 amplitude = 0.5
 )";
-
-std::string refusal(const std::string& text) {
-    try {
-        const Scene scene = read_scene(text, "file");
-        validate(scene, "");
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "accepted";
-}
-
-std::string with(std::string text, const std::string& from, const std::string& to) {
-    const auto at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
-}
 
 }  // namespace
 
@@ -129,4 +114,25 @@ TEST_CASE("a relief that cannot be is refused with its place") {
     };
     for (const auto& [text, expected] : cases)
         CHECK_MESSAGE(refusal(text).find(expected) != std::string::npos, refusal(text));
+}
+
+TEST_CASE("terms whose readings double from each to the next are refused before anything is computed of them") {
+    std::string text = "image = \"surface\"\n[[relief]]\nname = \"t0\"\ntype = \"fbm\"\n";
+    for (int i = 1; i < 60; ++i) {
+        const std::string before = "\"t" + std::to_string(i - 1) + "\"";
+        text += "[[relief]]\nname = \"t" + std::to_string(i) + "\"\ntype = \"sum\"\nof = [" + before + ", " + before +
+                "]\n";
+    }
+    CHECK(refusal(text).find("relief.t16.of: a point of it takes 131071 readings of terms") != std::string::npos);
+}
+
+TEST_CASE("a mask whose ends are nearer than float can tell, and dunes finer than double can place, are refused") {
+    const std::string hills =
+        "image = \"surface\"\n[[relief]]\nname = \"a\"\ntype = \"fbm\"\n[[relief]]\nname = \"b\"\n";
+    const std::string near = refusal(hills + "type = \"blend\"\nof = [\"a\", \"a\"]\nfrom = 1000.0\nto = 1000.001\n");
+    CHECK_MESSAGE(near.find("relief.b: from and to are nearer than 1e-5") != std::string::npos, near);
+    const std::string fine = refusal(
+        "image = \"surface\"\ncamera.far = 1e10\n[[relief]]\nname = \"b\"\ntype = \"dunes\"\n"
+        "wavelength = 1e-6\nwinding_size = 1e6\n");
+    CHECK_MESSAGE(fine.find("too fine for double precision") != std::string::npos, fine);
 }

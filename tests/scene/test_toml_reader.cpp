@@ -38,8 +38,8 @@ std::string load_error_of(const std::string& path) {
 
 const std::string kCameraKeys = "position, look_at, up, fov_deg, far, interpolation, keys";
 const std::string kSections =
-    "film, sampling, shutter, camera, surface, scale, sun, sky, fog, material, zoneplate, checker, wheel, edge, ramp, "
-    "constant";
+    "film, sampling, shutter, camera, surface, scale, sun, sky, fog, water, material, zoneplate, checker, wheel, edge, "
+    "ramp, constant";
 
 }  // namespace
 
@@ -82,9 +82,8 @@ TEST_CASE("unknown keys and sections are refused where they stand, with what is 
           "t.toml:3:1: fov_deg: unknown key, allowed outside sections: title, image; sections: " + kSections +
               ", did you mean 'camera.fov_deg'?");
     CHECK(error_of("[film]\nwidth = 3\nfov_deg = 35\n") ==
-          "t.toml:3:1: film.fov_deg: unknown key, allowed in [film]: width, height, exposure, tone, white_balance, "
-          "saturation, contrast, did you mean "
-          "'camera.fov_deg'?");
+          "t.toml:3:1: film.fov_deg: unknown key, allowed in [film]: width, height, exposure, metered, tone, "
+          "white_balance, saturation, contrast, did you mean 'camera.fov_deg'?");
     CHECK(error_of("[camera.lens]\nblades = 7\n") ==
           "t.toml:1:9: camera.lens: unknown key, allowed in [camera]: " + kCameraKeys);
     CHECK(error_of("[camrea]\nfov_deg = 35\n") ==
@@ -138,7 +137,7 @@ TEST_CASE("text without a key is refused and says what a scene file holds") {
         CAPTURE(text);
         const std::string error = error_of(text);
         CHECK(error.starts_with("t.toml:1:1: empty, allowed: a scene file holds at least one key"));
-        CHECK(error.find("strata scenes terrain") != std::string::npos);
+        CHECK(error.find("strata scenes hills") != std::string::npos);
     }
 }
 

@@ -65,6 +65,29 @@ TEST_CASE("depths of a way's parts add up, even or lifted by a noise, where the 
     CHECK(whole == doctest::Approx(parts).epsilon(1e-12));
 }
 
+TEST_CASE("places in the fog are drawn by what is scattered before them, up and down, in thin fog and thick") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit;
+    double worst = 0.0;
+    for (int i = 0; i < 4000; ++i) {
+        scene::Scene scene = foggy();
+        scene.fog.shafts = true;
+        scene.fog.visibility_m = std::pow(10.0, 1.0 + 4.0 * unit(random));
+        const shaders::Fog fog({scene, nullptr});
+        const double elevation = (i % 3 == 0 ? 1e-7 : 1.5) * (unit(random) - 0.5);
+        const MediumRay ray{
+            {0.0, 12.0 * unit(random), 0.0}, direction_at(elevation, 6.0 * unit(random)), 20.0 * unit(random)};
+        const double u = unit(random), whole = -std::expm1(-fog.depth(ray));
+        const shaders::Fog::Shaft shaft = fog.shaft(ray, u);
+        CHECK(shaft.way >= 0.0);
+        CHECK(shaft.way <= ray.distance * (1.0 + 1e-12));
+        const double before = -std::expm1(-fog.depth({ray.origin, ray.direction, shaft.way}));
+        worst = std::max(worst, std::abs(before - u * whole));
+    }
+    MESSAGE("worst share of the light that is scattered before, off by " << worst);
+    CHECK(worst < 1e-9);
+}
+
 TEST_CASE("a noise lifts the fog by rise_m at the most, about") {
     scene::Scene scene = foggy();
     const shaders::Fog even({scene, nullptr});
@@ -101,6 +124,12 @@ TEST_CASE("thick fog hides all, thin fog hides nothing, and the rest is in betwe
                             CHECK(seen.transmittance.x >= 0.0f);
                             CHECK(seen.transmittance.x <= 1.0f);
                             CHECK(std::isfinite(seen.inscatter.y));
+                            for (const double u : {0.0, 0.5, 1.0 - 0x1p-33}) {
+                                const auto shaft = fog.shaft({{0.0, y, 0.0}, direction, distance}, u);
+                                CHECK(shaft.way >= 0.0);
+                                CHECK(shaft.way <= std::min(distance, 1000.0) * (1.0 + 1e-12));
+                                CHECK(std::isfinite(shaft.sunlight.x));
+                            }
                             if (distance == 0.0) CHECK(seen.transmittance.x == 1.0f);
                         }
 }

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "tests/support/random.h"
 #include "tests/support/surfaces.h"
 
 using namespace strata;
@@ -15,16 +16,10 @@ using solid::Solid;
 
 namespace {
 
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); }
-
-double log_uniform(Random& random, double a, double b) { return std::exp(uniform(random, std::log(a), std::log(b))); }
-
-glm::dvec3 unit_vector(Random& random) {
-    std::normal_distribution<double> normal;
-    return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
-}
+using support::log_uniform;
+using support::Random;
+using support::uniform;
+using support::unit_vector;
 
 // Sets every key of a solid anywhere in its range, lengths no larger than 1000, and notes the names.
 struct RandomKeys {

@@ -59,6 +59,11 @@ TEST_CASE("a loop's last frame is followed by its first: the surface stands as i
     scene.surface.spin_deg_per_s = 72.0;
     scene.shutter.fps = 25.0;
     CHECK(loop_frames(scene) == 125);
+    // Clouds in the wind do not come back.
+    scene.clouds = {{.name = "layer", .wind_m_s = 5.0}};
+    CHECK(!loop_frames(scene));
+    scene.clouds.front().wind_m_s = 0.0;
+    CHECK(loop_frames(scene) == 125);
 
     scene.image = scene::ImageKind::wheel;
     scene.wheel.turns_per_s = 1.9;

@@ -37,7 +37,9 @@ TEST_CASE("names of AOVs are taken in any order, make each channel once, and no 
     CHECK(names_of(parse("evals,steps,evals")) == "evals,steps");
     estimate::EstimatorSettings estimator;
     estimator.kind = scene::EstimatorKind::random;
-    CHECK(names_of(parse_aovs("all", estimator)) == all_aov_names());
+    CHECK(names_of(parse_aovs("all", estimator, {"rock"})) == all_aov_names());
+    CHECK(names_of(parse_aovs("all", estimator)).find("mask") == std::string::npos);
+    CHECK_THROWS_AS(parse_aovs("cryptomatte", estimator), UsageError);
     estimator.kind = scene::EstimatorKind::sobol;
     CHECK(names_of(parse_aovs("all", estimator)).find("variance") == std::string::npos);
     CHECK_THROWS_AS(parse_aovs("variance", estimator), UsageError);

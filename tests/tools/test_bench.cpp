@@ -123,6 +123,7 @@ TEST_CASE("ids tell all cases apart, and marks tell those apart that ids do") {
         for (const Curve& curve : plan.curves) {
             for (const CurvePoint& point : curve.points) CHECK(ids.contains(point.id));
         }
+        for (const FeaturePair& pair : plan.light) CHECK((ids.contains(pair.off) && ids.contains(pair.on)));
         for (const SubsetPair& pair : plan.subset_pairs) CHECK((ids.contains(pair.part) && ids.contains(pair.whole)));
     }
 }

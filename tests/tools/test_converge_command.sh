@@ -31,7 +31,7 @@ check_refusals() {
 }
 
 # The columns that are not times.
-untimed() { cut -d, -f1-10,17- -- "$1"; }
+untimed() { awk -F, 'NR==1{for(i=1;i<=NF;i++)if($i!~/seconds/)keep[i]=1}{for(i=1;i<=NF;i++)if(keep[i])printf "%s,",$i;print ""}' "$1"; }
 
 check_report() {
     run converge edge "${tiny[@]}" -o report
@@ -40,7 +40,7 @@ check_report() {
         'converge.csv converge.json error-samples.png error-samples.svg error-time.png error-time.svg summary.md'
     expect_match 'the table names its columns' "$(head -1 report/converge.csv)" \
         'function,estimator,m,N,tracer,seed_count,rays,*,seconds,*,cpu_seconds,*,rmse,rmse_ci,*,limited_by'
-    expect 'a row a point, each with all columns' "$(awk -F, '{ print NF }' report/converge.csv | sort | uniq -c | xargs)" '13 25'
+    expect 'a row a point, each with all columns' "$(awk -F, '{ print NF }' report/converge.csv | uniq -c | awk '{ print $1 }')" 13
     expect 'seeds are counted, of grids one' "$(awk -F, '$4 == 2 { print $2, $6 }' report/converge.csv | xargs)" \
         'stratified 3 random 3 shared 3 uniform 1'
     expect 'rays are N * N a pixel' "$(awk -F, '$2 == "random" { print $7 }' report/converge.csv | xargs)" '120 480 1920'

@@ -3,13 +3,18 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <set>
+#include <string>
 
+#include "shaders_cpu/scene_parts.h"
 #include "src/estimate/estimator.h"
 #include "src/integrate/make_image.h"
 #include "src/render/render.h"
 #include "src/scene/builtin.h"
+#include "src/scene/override.h"
 #include "src/scene/toml_reader.h"
 #include "src/scene/validate.h"
+#include "tests/support/builtins.h"
 #include "tests/support/estimators.h"
 #include "tools/explain/explanation.h"
 #include "tools/explain/pilot.h"
@@ -55,11 +60,9 @@ Worst worst_prediction(const scene::Scene& scene, const film::Rect& window, inte
     const integrate::Counters actual = count(scene, window, tracer);
     CHECK(prediction.costs.rays == actual.rays);
     Worst worst;
-    worst.compare("shadow rays", prediction.costs.shadow_rays, actual.shadow_rays);
-    worst.compare("hits", prediction.costs.hits, actual.hits);
-    worst.compare("noise evaluations", prediction.costs.noise_evaluations, actual.noise_evaluations);
-    worst.compare("steps", prediction.costs.steps, actual.steps);
-    worst.compare("executed lanes", prediction.costs.executed_lanes, actual.executed_lanes);
+    for (const auto& [name, counted] : integrate::kCounters) {
+        if (is_predicted(counted)) worst.compare(name, prediction.costs.counts[counted], actual.*counted);
+    }
     return worst;
 }
 
@@ -85,7 +88,7 @@ Explanation explain(const scene::Scene& scene, bool with_pilot) {
 }  // namespace
 
 TEST_CASE("counts are predicted within a factor of 1.5 on every built-in scene") {
-    for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
+    for (const scene::BuiltinScene& builtin : support::builtins_to_render()) {
         const scene::Scene scene = small_builtin(builtin);
         const Worst worst = worst_prediction(scene, whole(scene), integrate::Tracer::fast);
         MESSAGE(builtin.name << ": off by " << worst.factor << " at most (" << worst.name << "; allowed 1.5)");
@@ -155,9 +158,7 @@ TEST_CASE("predicted counts are the same in every run") {
     const Costs b =
         predict(scene, whole(scene), {.tracer = integrate::Tracer::fast, .threads = 8, .passes = 1, .with_pilot = true})
             .costs;
-    CHECK(a.noise_evaluations == b.noise_evaluations);
-    CHECK(a.shadow_rays == b.shadow_rays);
-    CHECK(a.steps == b.steps);
+    for (const auto& [name, counted] : integrate::kCounters) CHECK(a.counts[counted] == b.counts[counted]);
 }
 
 TEST_CASE("without a pilot only what is certain is told") {
@@ -167,18 +168,18 @@ TEST_CASE("without a pilot only what is certain is told") {
                                 {.tracer = integrate::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = false})
                             .costs;
     CHECK(costs.rays == 128 * 72 * 4);
-    CHECK(!costs.shadow_rays);
-    CHECK(!costs.noise_evaluations);
+    CHECK(!costs.counts[&integrate::Counters::shadow_rays]);
+    CHECK(!costs.counts[&integrate::Counters::noise_evaluations]);
     CHECK(!costs.seconds);
     CHECK(costs.peak_memory_bytes);
     scene.sun.shadows = false;
     CHECK(predict(scene, whole(scene),
                   {.tracer = integrate::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = false})
-              .costs.shadow_rays == 0.0);
+              .costs.counts[&integrate::Counters::shadow_rays] == 0.0);
     scene.image = scene::ImageKind::checker;
     CHECK(predict(scene, whole(scene),
                   {.tracer = integrate::Tracer::fast, .threads = 1, .passes = 1, .with_pilot = false})
-              .costs.noise_evaluations == 0.0);
+              .costs.counts[&integrate::Counters::noise_evaluations] == 0.0);
 }
 
 TEST_CASE("the plan names what is left out, and the counts agree") {
@@ -208,6 +209,27 @@ TEST_CASE("the plan names what is left out, and the counts agree") {
         CHECK(feature(plan, "time samples").needed == !estimator.settings().shutter.instant());
         CHECK(feature(plan, "shared samples").needed == estimator.shared());
         for (const Feature& each : plan.features) CHECK(!each.why.empty());
+    }
+}
+
+TEST_CASE("every light, background, medium and material has a row, needed where the picture has it") {
+    std::set<std::string> needed_somewhere, left_out_somewhere;
+    for (const char* keys : {"", "sky.model=daylight", "sky.light=rays", "sun.intensity=0", "fog.visibility_m=300",
+                             "sky.haze_distance=50"}) {
+        scene::Scene scene = small_builtin(*scene::find_builtin("planet"));
+        scene.scale.metres = 300.0;
+        if (*keys != '\0') scene::apply_override(scene, keys);
+        const Plan plan = make_plan(scene, integrate::Tracer::fast);
+        std::set<std::string> names;
+        for (const Feature& each : plan.features) CHECK(names.insert(each.name).second);
+        for (const shaders::ScenePart& part : shaders::scene_parts(scene)) {
+            CHECK(feature(plan, part.name).needed == part.is_needed);
+            (part.is_needed ? needed_somewhere : left_out_somewhere).insert(part.name);
+        }
+    }
+    for (const char* name : {"sun", "sky light", "daylight sun", "fog", "haze", "daylight air"}) {
+        CHECK(needed_somewhere.contains(name));
+        CHECK(left_out_somewhere.contains(name));
     }
 }
 
@@ -251,7 +273,7 @@ TEST_CASE("the JSON holds what its help promises") {
         }
         CHECK(json["octaves"].size() == (std::string(name) == "terrain" ? 12 : 0));
         CHECK(json["recorded"].is_null());
-        CHECK(json["costs"].size() == 9);
+        CHECK(json["costs"].size() == std::size(integrate::kCounters) + 2);
         CHECK(json["costs"]["rays"]["predicted"] == 128 * 72 * 4);
         CHECK(json["costs"]["rays"]["actual"].is_null());
         CHECK(json["pilot"]["rays"] == 128 * 72 * 4);

@@ -64,6 +64,74 @@ check_separate() {
     expect_same_file 'a picture rendered again has its layers again' a.N.exr b.N.exr
 }
 
+# MurmurHash3_x86_32 once more, from its published description.
+murmur() { # text
+    local text=$1 hash=0 block k i length=${#1} byte
+    for ((block = 0; block * 4 < length; ++block)); do
+        k=0
+        for ((i = 3; i >= 0; --i)); do
+            byte=0
+            ((block * 4 + i < length)) && printf -v byte %d "'${text:block*4+i:1}"
+            k=$((k << 8 | byte))
+        done
+        k=$((k * 0xcc9e2d51 & 0xffffffff))
+        k=$(((k << 15 | k >> 17) & 0xffffffff))
+        hash=$((hash ^ (k * 0x1b873593 & 0xffffffff)))
+        if ((block * 4 + 4 <= length)); then
+            hash=$(((hash << 13 | hash >> 19) & 0xffffffff))
+            hash=$(((hash * 5 + 0xe6546b64) & 0xffffffff))
+        fi
+    done
+    hash=$((hash ^ length))
+    hash=$(((hash ^ hash >> 16) * 0x85ebca6b & 0xffffffff))
+    hash=$(((hash ^ hash >> 13) * 0xc2b2ae35 & 0xffffffff))
+    printf %08x $((hash ^ hash >> 16))
+}
+
+check_mattes() {
+    local grounds=(--set 'ground.rock.colour=[0.3,0.3,0.3]') key part
+    cat >ground.toml <<'TOML'
+image = "surface"
+[[ground]]
+name = "rock"
+[[ground]]
+name = "snow"
+height_from = 0.4
+noise_size = 0.5
+[[ground]]
+name = "upper-snow_2"
+height_from = 1.0
+TOML
+    local small=(ground.toml --size 70x130 -N 2 --simd scalar --quiet)
+    "$strata" render "${small[@]}" "${grounds[@]}" --aov mask,cryptomatte -o a.exr
+    for part in 1 2; do
+        "$strata" render "${small[@]}" "${grounds[@]}" --aov mask,cryptomatte --shard "$part/2" -o "part$part.exr"
+    done
+    run merge part1.exr part2.exr -o whole.exr
+    expect_same_file 'parts of a picture with mattes become the whole, header and all' a.exr whole.exr
+    "$strata" render a.exr --quiet -o again.exr
+    expect_same_file 'a picture rendered again has its mattes again' a.exr again.exr
+    refuses 'layers do not fit a file of three channels' 2 '*--aov mask: allowed with --layers one*' \
+        render "${small[@]}" --aov mask --layers separate -o b.exr
+    refuses 'without layers of ground there is nothing to mask' 2 '*--aov cryptomatte: allowed of a scene that has layers of ground*' \
+        render "${tiny[@]}" --aov cryptomatte -o b.exr
+    has_oiiotool || return 0
+    expect 'masks are named after their layers, and mattes as Cryptomatte has it' "$(channels_of a.exr)" \
+        'R (half), G (half), B (half), crypto_ground00.r (float), crypto_ground00.g (float), crypto_ground00.b (float), crypto_ground00.a (float), crypto_ground01.r (float), crypto_ground01.g (float), crypto_ground01.b (float), crypto_ground01.a (float), mask.rock (float), mask.snow (float), mask.upper-snow_2 (float)'
+    key=$(murmur crypto_ground)
+    local info
+    info=$(oiiotool --info -v a.exr)
+    expect_match 'the header has the ids of the names, by the hash' "$info" \
+        "*cryptomatte/${key:0:7}/manifest: *rock*$(murmur rock)*snow*$(murmur snow)*upper-snow_2*$(murmur upper-snow_2)*"
+    expect_match 'and the name' "$info" "*cryptomatte/${key:0:7}/name: \"crypto_ground\"*"
+    oiiotool a.exr --ch mask.rock,mask.snow,mask.upper-snow_2 --chsum:weight=1,1,1 -o masks.exr
+    oiiotool a.exr --ch crypto_ground00.g,crypto_ground00.a,crypto_ground01.g --chsum:weight=1,1,1 -o pairs.exr
+    run_oiiotool --fail 1e-6 --hardfail 1e-6 masks.exr pairs.exr --diff
+    expect_match 'pairs cover as much as masks' "$code: $output" '0: *PASS*'
+    "$strata" render "${small[@]}" "${grounds[@]}" --aov mask --layer-prefix View -o c.exr
+    expect_match 'a prefix goes in front of masks' "$(channels_of c.exr)" '*View.mask.rock (float)*'
+}
+
 check_all() {
     run render "${tiny[@]}" --aov all --estimator random -o a.exr
     expect 'all channels there are' "$status" 0
@@ -84,7 +152,7 @@ check_refusals() {
     before=$(echo *)
     refuses 'an unknown channel gets the known ones' 2 '*--aov depht: allowed: all, or some of Z,depth,*' \
         render "${tiny[@]}" --aov depht -o a.exr
-    refuses 'what an estimator does not tell is refused' 2 '*--aov variance: allowed with --estimator random*' \
+    refuses 'what an estimator does not tell is refused' 2 '*--aov variance: allowed with -N of 2 or more and one of the estimators stratified, random*' \
         render "${tiny[@]}" --aov variance --estimator sobol -o a.exr
     refuses 'channels that have no place are refused' 2 '*--aov N: allowed with an EXR*' \
         render "${tiny[@]}" --aov N -o a.png
@@ -99,4 +167,4 @@ check_refusals() {
     expect 'refusals write nothing' "$(echo *)" "$before"
 }
 
-run_groups check_names check_sum check_separate check_all check_refusals
+run_groups check_names check_sum check_separate check_mattes check_all check_refusals

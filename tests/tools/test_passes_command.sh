@@ -22,7 +22,7 @@ check_refusals() {
             render --estimator "$estimator" --passes 2
     done
     refuses 'a target of super is refused' 2 '*--target-rmse: passes*' render --estimator super --target-rmse 0.1
-    run render --estimator super --passes 1 "${tiny[@]}" -o one.png
+    run render hills --estimator super --passes 1 "${tiny[@]}" -o one.png
     expect 'one pass is for every estimator' "$status: $output" '0: '
 }
 

@@ -18,10 +18,10 @@ check_unknown_words() {
     refuses 'a misspelt option gets the nearest name' 2 "*--estimatr*did you mean '--estimator'*" render --estimatr sobol
     refuses 'a misspelt option with a value attached gets the nearest name' 2 "*did you mean '--size'*" render --siz=2x2
     refuses 'an unknown letter gets the allowed options' 2 '*-Q: unknown option*--quiet*' render -Q
-    refuses 'no command names the commands' 2 '*render, merge, scenes, probe*'
+    refuses 'no command names the commands' 2 '*render, merge, farm, scenes, probe*'
     refuses 'a second scene is one argument too many' 2 '*planet: one argument too many*' render terrain planet
     refuses 'a misspelt scene gets the nearest name' 2 "*did you mean 'hyperterrain'*" render hyperterain
-    refuses 'a misspelt scene to print gets the nearest name' 2 "*did you mean 'terrain'*" scenes terain
+    refuses 'a misspelt scene to print gets the nearest name' 2 "*did you mean 'hills'*" scenes hils
     refuses 'an option without its value says so' 2 '*--order*M missing*' render -m
 }
 
@@ -45,7 +45,7 @@ check_wrong_values() {
     refuses '--set names the nearest key' 2 "*did you mean 'camera.fov_deg'*" render --set camera.fov=3
     refuses '--set without = says what is allowed' 2 "*no '='*" render --set camera
     refuses '--set refuses NaN' 2 '*camera.fov_deg: not a finite number (nan)*' render --set camera.fov_deg=nan
-    refuses 'octaves beyond double precision are refused' 2 '*octave*2^50*' render --set surface.octaves=32 \
+    refuses 'octaves beyond double precision are refused' 2 '*octave*2^50*' render hills --set surface.octaves=32 \
         --set surface.lacunarity=10
 }
 
@@ -91,7 +91,7 @@ check_outputs() {
         'my scene v1.2.exr'$'\n''my scene v1.2.png'$'\n''my scene v1.2.toml'
     expect_match 'the summary tells what was written, time, rays and memory' "$status: $output" \
         '0: *wrote *.exr*wrote *.png*time *rays *memory *'
-    run render "${tiny[@]}" --estimator stratified --crop 3,2,9,7 -o twice.png -o ./twice.png -o t.tif -o t.jpg -o t.exr --stats s.json
+    run render hills "${tiny[@]}" --estimator stratified --crop 3,2,9,7 -o twice.png -o ./twice.png -o t.tif -o t.jpg -o t.exr --stats s.json
     expect '--quiet prints nothing' "$status: $output" '0: '
     expect 'each output is there' "$(echo t*)" 't.exr t.jpg t.tif twice.png'
     local missing='' key
@@ -180,22 +180,22 @@ check_probes() {
     lines=$("$strata" probe field planet <<<"$positions")
     form="\{\"f\":$number,\"gradient\":$vector,\"octaves\":\[$number(,$number)*\]\}"
     expect 'probe field answers each line in its form' "$(wc -l <<<"$lines") $(strays "$lines" "$form")" '3 0'
-    lines=$("$strata" probe field <<<$'1 2 3\n1 2' 2>&1 >/dev/null)
+    lines=$("$strata" probe field hills <<<$'1 2 3\n1 2' 2>&1 >/dev/null)
     expect_match 'a line with too few numbers is named' "$lines" "*stdin:2: '1 2', allowed: x y z*"
-    lines=$("$strata" probe field <<<'1 nan 3' 2>&1)
+    lines=$("$strata" probe field hills <<<'1 nan 3' 2>&1)
     expect_match 'NaN on stdin is refused' "$lines" "*stdin:1: '1 nan 3'*"
-    lines=$("$strata" probe field <<<'1e300 0 0' 2>&1)
+    lines=$("$strata" probe field hills <<<'1e300 0 0' 2>&1)
     expect_match 'a position beyond double precision is refused' "$lines" '*stdin:1:*surface.origin*'
 
-    lines=$("$strata" probe ray <<<$'0 5 0 0 -1 0\n0 5 0 0 1 0\n0 5 0 1e-320 -3e200 0')
+    lines=$("$strata" probe ray hills <<<$'0 5 0 0 -1 0\n0 5 0 0 1 0\n0 5 0 1e-320 -3e200 0')
     form="\{\"origin\":$vector,\"direction\":$vector,\"hit\":(true,\"t\":$number,\"position\":$vector,\"normal\":$vector"
     form+="|false,\"t\":null,\"position\":null,\"normal\":null),\"steps\":[0-9]+,\"noise_evaluations\":[0-9]+\}"
     expect 'probe ray answers each line in its form' "$(wc -l <<<"$lines") $(strays "$lines" "$form")" '3 0'
     expect 'a hit, a miss, a hit by a direction of any length' \
         "$(grep -o '"hit":[a-z]*' <<<"$lines" | tr '\n' ' ')" '"hit":true "hit":false "hit":true '
-    lines=$("$strata" probe ray <<<'0 0 0 0 0 0' 2>&1)
+    lines=$("$strata" probe ray hills <<<'0 0 0 0 0 0' 2>&1)
     expect_match 'a ray without a direction is refused' "$lines" "*stdin:1: '0 0 0 0 0 0'*direction*"
-    refuses 'a sample beyond the last is refused' 2 '*--sample 16: allowed*0 to 15*' probe ray --estimator stratified --pixel 0,0 --sample 16
+    refuses 'a sample beyond the last is refused' 2 '*--sample 16: allowed*0 to 15*' probe ray hills --estimator stratified --pixel 0,0 --sample 16
     refuses 'a pixel outside the frame is refused' 2 '*--pixel 16,0: allowed*x < 16*' probe ray --size 16x9 --pixel 16,0
 }
 
@@ -247,7 +247,7 @@ check_signals() {
 
 check_failing_writes() {
     echo earlier >a.exr
-    output=$(ulimit -f 20 && "$strata" render --size 64x36 -N 1 --format float --quiet -o a.exr -o a.png 2>&1)
+    output=$(ulimit -f 20 && "$strata" render hills --size 64x36 -N 1 --format float --quiet -o a.exr -o a.png 2>&1)
     expect_match 'a full disk is told' "$?: $output" '1: strata: cannot write "a.exr": File too large'
     output=$(ulimit -f 2 && "$strata" render hyperterrain --size 320x360 -N 8 --estimator shared --quiet -o full.exr --stats s.json 2>&1)
     expect_match 'a render none of whose files can be written fails' "$?: $output" '1: *full.exr*'
@@ -267,8 +267,8 @@ check_failing_writes() {
     expect 'closed output is an error' "$?" 1
     output=$(set -o pipefail; { "$strata" scenes terrain; "$strata" scenes terrain; } 2>&1 | head -1)
     expect_match 'a reader that goes early is no error' "$?: $output" '0: *'
-    "$strata" render --size 16x9 -N 1 -o closed.png >&- 2>/dev/null
-    "$strata" render --size 16x9 -N 1 -o open.png --quiet
+    "$strata" render hills --size 16x9 -N 1 -o closed.png >&- 2>/dev/null
+    "$strata" render hills --size 16x9 -N 1 -o open.png --quiet
     expect_same_file 'pictures do not depend on standard output' closed.png open.png
     run --version
     expect_match 'there is a version' "$status: $output" '0: strata [0-9]*.[0-9]*'

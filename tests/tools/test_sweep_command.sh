@@ -13,6 +13,12 @@ times() { stat -c '%y %n' "$1"/*; }
 # sweep.csv without its two columns of times.
 untimed() { awk -F, 'NR==1{for(i=1;i<=NF;i++)if($i!~/seconds/)keep[i]=1}{for(i=1;i<=NF;i++)if(keep[i])printf "%s,",$i;print ""}' "$1"; }
 
+# cells TABLE COLUMN ROW: of the rows whose first cell begins so.
+cells() {
+    awk -F, -v column="$2" -v row="$3" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == column) at = i }
+        NR > 1 && index($1, row) == 1 { print $at }' "$1"
+}
+
 check_grid_and_resumption() {
     run sweep "${tiny[@]}" --N 1,2 --m 1,4 -o s
     expect_match 'a sweep says what it wrote and how good its references are' "$status: $output" \
@@ -69,7 +75,7 @@ check_interruption() {
     run sweep terrain --size 160x90 --simd scalar --N 1,2 --reference none -o s
     expect_match 'the sweep goes on from there' "$status: $output" '0: kept *1 pictures, 1 to render*'
     expect 'what was finished is not rendered again' "$(stat -c %y s/N01.exr)" "$first"
-    expect 'the times from before the interruption are in the table' "$(awk -F, '/^N01/{print ($7 > 0)}' s/sweep.csv)" 1
+    expect 'the times from before the interruption are in the table' "$(cells s/sweep.csv seconds N01 | awk '{ print ($1 > 0) }')" 1
 }
 
 check_axes_and_references() {
@@ -80,10 +86,10 @@ check_axes_and_references() {
     run sweep zoneplate --size 24x12 --rows seed=1,2 --reference none -o one
     expect 'one axis alone is fine, and none is a reference' "$status: $(cd one && echo *)" \
         '0: seed01.exr seed02.exr sweep.csv sweep.json sweep.png'
-    expect 'without a reference there are no errors' "$(awk -F, 'NR>1{print $9 $15}' one/sweep.csv | tr -d '\n')" ''
+    expect 'without a reference there are no errors' "$(cells one/sweep.csv rmse seed)$(cells one/sweep.csv near_reference_error seed)" ''
     "$strata" render zoneplate --size 24x12 -N 8 --quiet --format float -o ref.exr
     run sweep zoneplate --size 24x12 --N 1,8 --reference ref.exr -o given
-    expect 'a given reference measures the same picture as no error' "$status: $(awk -F, '/^N08/{print $9}' given/sweep.csv)" '0: 0'
+    expect 'a given reference measures the same picture as no error' "$status: $(cells given/sweep.csv rmse N08 | sed 's/\.0$//')" '0: 0'
     run sweep zoneplate --size 24x12 --N 1,16 --estimator sobol --reference-N 4 -o near
     expect 'errors that are partly the reference'"'"'s are marked' "$(awk -F, 'NR>1{print $NF}' near/sweep.csv | tr '\n' ' ')" 'no yes '
     run sweep zoneplate --size 24x12 --N 4 --estimator super,stratified --m 1 --reference-N 4 -o box

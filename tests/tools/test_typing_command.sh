@@ -45,7 +45,7 @@ check_repeated_options() {
 }
 
 check_typed_numbers() {
-    run render --size +16x9. -N 2e0 --threads +1 --tile 1e1 --crop 0,0,+8,.4e1 --set camera.fov_deg=.5e2 \
+    run render hills --size +16x9. -N 2e0 --threads +1 --tile 1e1 --crop 0,0,+8,.4e1 --set camera.fov_deg=.5e2 \
         --set 'camera.position=[0., +.5e1, 1e1]' --set title=Größe --target-rmse +.5 --time-limit .5e1m --quiet -o a.png
     expect 'numbers may be written as people do' "$status: $output" '0: '
     expect 'and text without quotes' "$(grep -ao 'title = \"[^\"]*\"' a.png)" 'title = "Größe"'
@@ -56,11 +56,11 @@ check_progress() {
     command -v script >/dev/null || return
     local term columns said
     for term in dumb ''; do
-        said=$(TERM=$term script -qec "'$strata' render --size 400x300 -N 4 -o t.png" /dev/null </dev/null)
+        said=$(TERM=$term script -qec "'$strata' render hills --size 400x300 -N 4 -o t.png" /dev/null </dev/null)
         expect "with TERM='$term' no code reaches the terminal" "$(grep -c $'\033' <<<"$said")" 0
     done
     for columns in 10 30; do
-        said=$(TERM=xterm script -qec "stty cols $columns; '$strata' render --size 400x300 -N 6 -o t.png" /dev/null </dev/null)
+        said=$(TERM=xterm script -qec "stty cols $columns; '$strata' render hills --size 400x300 -N 6 -o t.png" /dev/null </dev/null)
         expect "a line of progress is cut to $columns columns" "$(grep -o $'\r\033\[K[^\r]*%[^\r]*' <<<"$said" |
             tr -d '\r' | awk -v most="$columns" '{ if (length($0) - 3 >= most) ++long } END { print (NR > 0) " " long + 0 }')" '1 0'
     done

@@ -43,7 +43,7 @@ check_folder_in_the_way() {
     for options in '-N 16' '-N 4 --time-limit 4s'; do
         mkdir work
         # shellcheck disable=SC2086 # two words
-        (cd work && exec "$strata" render hyperterrain --size 160x90 --quiet $options -o a.exr -o a.png --stats s.json 2>messages) &
+        (cd work && exec "$strata" render hyperterrain --size 160x90 --quiet --no-journal $options -o a.exr -o a.png --stats s.json 2>messages) &
         local pid=$!
         await_hidden work 3
         mkdir work/a.png work/s.json

@@ -9,26 +9,17 @@
 #include "src/trace/fast_tracer.h"
 #include "src/trace/field.h"
 #include "src/trace/shadow_ray.h"
+#include "tests/support/random.h"
 #include "tests/support/surfaces.h"
 #include "tools/stability/oracles/ray_oracle.h"
 #include "tools/stability/oracles/shape_of.h"
 
 namespace strata::trace_test {
 
-using Random = std::mt19937_64;
-
-inline double uniform(Random& random, double a, double b) {
-    return std::uniform_real_distribution<double>(a, b)(random);
-}
-
-inline double log_uniform(Random& random, double a, double b) {
-    return std::exp(uniform(random, std::log(a), std::log(b)));
-}
-
-inline glm::dvec3 unit_vector(Random& random) {
-    std::normal_distribution<double> normal;
-    return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
-}
+using support::log_uniform;
+using support::Random;
+using support::uniform;
+using support::unit_vector;
 
 inline scene::Surface surface_of(solid::Kind kind) {
     scene::Surface surface;
@@ -193,22 +184,23 @@ struct Judgement {
     glm::dvec3 origin{0.0}, direction{0.0};  // of the last violation, to replay
 };
 
-// times: of each ray, or empty for time 0.
-inline Judgement judge(const scene::Surface& surface, std::span<const trace::Ray> rays,
-                       std::span<const trace::Hit> hits, std::span<const double> times = {}) {
-    oracle::FieldOracle field(shape_of(surface));
+// field_at(time): a FieldOracle or what has its probe and shape. times: of each ray, or empty for time 0.
+template <class FieldAt>
+Judgement judge_by(const FieldAt& field_at, std::span<const trace::Ray> rays, std::span<const trace::Hit> hits,
+                   std::span<const double> times) {
+    double time = 0.0;
+    auto field = field_at(time);
     Judgement total;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const trace::Ray& ray = rays[i];
-        if (!times.empty()) field = oracle::FieldOracle(shape_of(surface, times[i]));
+        if (!times.empty() && times[i] != time) field = field_at(time = times[i]);
         const auto delta = [&](double t) { return ray.delta0 + ray.delta_slope * t; };
         const bool hit = hits[i].state == trace::HitState::hit;
         ++total.rays;
         total.hits += hit;
         total.unresolved += hits[i].state == trace::HitState::unresolved;
-        const oracle::Verdict verdict =
-            oracle::judge_ray(field, {ray.origin.x, ray.origin.y, ray.origin.z},
-                              {ray.direction.x, ray.direction.y, ray.direction.z}, ray.limit, delta, {hit, hits[i].s});
+        const oracle::Verdict verdict = oracle::judge_ray(
+            field, oracle::as_vec(ray.origin), oracle::as_vec(ray.direction), ray.limit, delta, {hit, hits[i].s});
         total.missed += verdict.missed;
         total.unfounded += verdict.unfounded;
         total.undecided += verdict.undecided;
@@ -219,6 +211,12 @@ inline Judgement judge(const scene::Surface& surface, std::span<const trace::Ray
         }
     }
     return total;
+}
+
+inline Judgement judge(const scene::Surface& surface, std::span<const trace::Ray> rays,
+                       std::span<const trace::Hit> hits, std::span<const double> times = {}) {
+    const auto field_at = [&](double time) { return oracle::FieldOracle(shape_of(surface, time)); };
+    return judge_by(field_at, rays, hits, times);
 }
 
 }  // namespace strata::trace_test

@@ -203,7 +203,7 @@ class ComposedField {
           base_slope_(shape_.kind == oracle::Kind::isosurface ? 0.0 : 1.0),
           slope_(relief_.slope() + base_slope_) {}
 
-    oracle::Probe probe(const oracle::Vec& p) const {
+    oracle::Probe probe(const oracle::Vec& p, const oracle::Vec& /*direction*/) const {
         const oracle::Vec at{p[0] - drifted_[0], p[1] - drifted_[1], p[2] - drifted_[2]};
         const double base = bare_.base(p), f = base - relief_.value(at);
         const oracle::ReliefOracle::Rough rough = relief_.rough(at);
@@ -229,31 +229,7 @@ class ComposedField {
 // times: of each ray.
 inline Judgement judge_composed(const scene::Surface& surface, std::span<const trace::Ray> rays,
                                 std::span<const trace::Hit> hits, std::span<const double> times) {
-    ComposedField field(surface);
-    Judgement total;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const trace::Ray& ray = rays[i];
-        if (times[i] != 0.0) field = ComposedField(surface, times[i]);
-        const oracle::Vec p{ray.origin.x, ray.origin.y, ray.origin.z};
-        const oracle::Vec d{ray.direction.x, ray.direction.y, ray.direction.z};
-        const auto delta = [&](double t) { return ray.delta0 + ray.delta_slope * t; };
-        const auto f = [&](double t) { return field.probe({p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]}); };
-        const bool hit = hits[i].state == trace::HitState::hit;
-        ++total.rays;
-        total.hits += hit;
-        total.unresolved += hits[i].state == trace::HitState::unresolved;
-        const oracle::Verdict verdict =
-            oracle::judge_ray(f, oracle::clip(field.shape(), p, d, ray.limit), delta, {hit, hits[i].s});
-        total.missed += verdict.missed;
-        total.unfounded += verdict.unfounded;
-        total.undecided += verdict.undecided;
-        total.thickest = std::max(total.thickest, verdict.thickest);
-        if (!verdict.ok()) {
-            total.origin = ray.origin;
-            total.direction = ray.direction;
-        }
-    }
-    return total;
+    return judge_by([&](double time) { return ComposedField(surface, time); }, rays, hits, times);
 }
 
 }  // namespace strata::trace_test

@@ -8,15 +8,13 @@
 #include <random>
 
 #include "noise/bounds.h"
+#include "tests/support/random.h"
 #include "tools/stability/oracles/ray_oracle.h"
 
 namespace {
 
 using namespace strata::oracle;
-
-double uniform(std::mt19937_64& random, double lo, double hi) {
-    return std::uniform_real_distribution<double>(lo, hi)(random);
-}
+using strata::support::uniform;
 
 Vec random_direction(std::mt19937_64& random) {
     std::normal_distribution<double> normal;

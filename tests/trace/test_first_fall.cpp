@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "noise/simd_target.h"
+#include "tests/support/random.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tests/trace/test_first_fall.cpp"
@@ -52,11 +53,9 @@ HWY_EXPORT(FindFall);
 
 namespace {
 
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); }
-
-double log_uniform(Random& random, double a, double b) { return std::exp(uniform(random, std::log(a), std::log(b))); }
+using support::log_uniform;
+using support::Random;
+using support::uniform;
 
 double some(Random& random) { return (random() % 2 == 0 ? 1.0 : -1.0) * log_uniform(random, 1e-9, 1e3); }
 

@@ -10,6 +10,7 @@
 #include "noise/bounds.h"
 #include "noise/simd_target.h"
 #include "src/trace/trace_plan.h"
+#include "tests/support/random.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tests/trace/test_lower_bound.cpp"
@@ -73,13 +74,8 @@ HWY_EXPORT(Root);
 
 namespace {
 
-double uniform(std::mt19937_64& random, double a, double b) {
-    return std::uniform_real_distribution<double>(a, b)(random);
-}
-
-double log_uniform(std::mt19937_64& random, double a, double b) {
-    return std::exp(uniform(random, std::log(a), std::log(b)));
-}
+using support::log_uniform;
+using support::uniform;
 
 // The least that f can be after a step s: every octave at the least of its three bounds.
 long double worst_f(const Field& field, const BoundCase& at, long double s) {

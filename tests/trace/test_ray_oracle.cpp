@@ -8,13 +8,12 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/random.h"
+
 namespace {
 
 using namespace strata::oracle;
-
-double uniform(std::mt19937_64& random, double lo, double hi) {
-    return std::uniform_real_distribution<double>(lo, hi)(random);
-}
+using strata::support::uniform;
 
 // Solid in disjoint ascending stretches. f is the distance to the nearest end, bent by a factor in (0.6, 1.4); clear is
 // too small by `looseness`, as a Lipschitz bound is.

@@ -101,3 +101,32 @@ TEST_CASE("in the ball around any point a relief stays between the enclosure's b
     MESSAGE(checked << " points, bounds attained to " << tightest);
     CHECK(tightest > 0.3);
 }
+
+TEST_CASE("at a point alone the gradient is the reference path's, also behind a curve through heights of kilometres") {
+    Random random(23);
+    double worst = 0.0;
+    const auto check = [&](const std::vector<noise::ReliefTerm>& terms, bool planar, double size) {
+        const noise::Relief relief(terms, planar ? 2 : 3);
+        const trace::ReliefPlan plan(relief);
+        for (int j = 0; j < 40; ++j) {
+            const glm::dvec3 x = size * uniform(random, 0.0, 1.0) * unit_vector(random);
+            const glm::dvec3 expected = relief.jet(x).gradient;
+            const glm::dvec3 gradient = claim_at(plan, x, 0.0, true, planar).gradient;
+            const double off = glm::length(gradient - expected) / (1.0 + glm::length(expected));
+            INFO("terms " << terms.size() << " last " << terms.back().name);
+            REQUIRE(off < 2e-3);
+            worst = std::max(worst, off);
+        }
+    };
+    for (int i = 0; i < 100; ++i) check(random_landform(random), true, 30.0);
+    for (int i = 0; i < 100; ++i) check(random_relief(random), false, 30.0);
+    noise::Envelope mound;
+    mound.x_size = mound.z_size = 8000.0;
+    mound.least = 0.0;
+    mound.lift = 1.0;
+    noise::Curve crater;
+    crater.from = {0.02, 0.25, 0.7};
+    crater.to = {0.0, 520.0, -2200.0};
+    check({{"mound", {}, mound}, {"crater", {"mound"}, crater}}, true, 12000.0);
+    MESSAGE("gradients are off by " << worst << " of 1 + their length at most");
+}

@@ -36,9 +36,9 @@ void add_command(cli::Command& program) {
         "EXR channels: half (up to 65504) or float; default half");
     cli::add_quiet(*command, request->quiet);
     command->footer(
-        "Frame k begins at k / shutter.fps seconds. What moves: camera.keys, surface.spin_deg_per_s, surface.drift, "
-        "the\n"
-        "wheel. Motion blur: shutter.open_s > 0, by a B-spline of order --time-order, N * N samples in all.\n"
+        "Frame k begins at k / shutter.fps seconds. What moves: camera.keys, surface.spin_deg_per_s, surface.drift,\n"
+        "clouds.NAME.wind_m_s, the wheel. Motion blur: shutter.open_s > 0, by a B-spline of order --time-order, N * N "
+        "samples in all.\n"
         "A frame that is there, whole and of the same settings, is kept; an empty, cut or damaged one is made again. "
         "One\n"
         "of other settings is refused before anything is rendered, unless --overwrite is given. Films alone keep their "

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "src/scene/key_text.h"
+#include "src/scene/needs.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/scene_argument.h"
 
@@ -33,24 +34,23 @@ struct Part {
     int first = 0, last = 0, step = 1;
 };
 
-Part parse_part(const std::string& all, const std::string& text) {
+Part parse_part(const std::string& origin, const std::string& all, const std::string& text) {
     const char* allowed =
-        "allowed: FRAME, FIRST-LAST or FIRST-LASTxSTEP, such as 0-249 or 0-100x2, from 0; several with ','";
+        "allowed: NUMBER, FIRST-LAST or FIRST-LASTxSTEP, such as 0-249 or 0-100x2, from 0; several with ','";
     const auto dash = text.find('-', 1);
     const bool is_range = dash != std::string::npos;
     const auto times = is_range ? text.find('x', dash) : std::string::npos;
     Part part;
     try {
-        part.first = cli::parse_integer("--frames", text.substr(0, dash), 0, kLastFrame);
-        part.last = is_range ? cli::parse_integer("--frames", text.substr(dash + 1, times - dash - 1), 0, kLastFrame)
-                             : part.first;
-        if (times != std::string::npos)
-            part.step = cli::parse_integer("--frames", text.substr(times + 1), 1, kLastFrame);
+        part.first = cli::parse_integer(origin, text.substr(0, dash), 0, kLastFrame);
+        part.last =
+            is_range ? cli::parse_integer(origin, text.substr(dash + 1, times - dash - 1), 0, kLastFrame) : part.first;
+        if (times != std::string::npos) part.step = cli::parse_integer(origin, text.substr(times + 1), 1, kLastFrame);
     } catch (const cli::UsageError&) {
-        throw cli::UsageError(fmt::format("--frames {}: {}", scene::excerpt(all), allowed));
+        throw cli::UsageError(fmt::format("{} {}: {}", origin, scene::excerpt(all), allowed));
     }
     if (part.last < part.first) {
-        throw cli::UsageError(fmt::format("--frames {}: ends before it begins, {}", scene::excerpt(all), allowed));
+        throw cli::UsageError(fmt::format("{} {}: ends before it begins, {}", origin, scene::excerpt(all), allowed));
     }
     return part;
 }
@@ -77,16 +77,16 @@ std::optional<int> FrameList::step() const {
     return step;
 }
 
-FrameList parse_frames(const std::string& text) {
+FrameList parse_frames(const std::string& text, const std::string& origin) {
     std::vector<int> numbers;
     std::size_t start = 0;
     while (start <= text.size()) {
         const std::size_t end = std::min(text.find(',', start), text.size());
-        const Part part = parse_part(text, text.substr(start, end - start));
+        const Part part = parse_part(origin, text, text.substr(start, end - start));
         const std::size_t count = numbers.size() + static_cast<std::size_t>((part.last - part.first) / part.step) + 1;
         if (count > kMostFrames) {
             throw cli::UsageError(
-                fmt::format("--frames {}: {} frames, allowed: up to {}", scene::excerpt(text), count, kMostFrames));
+                fmt::format("{} {}: {} of them, allowed: up to {}", origin, scene::excerpt(text), count, kMostFrames));
         }
         for (int i = 0; i <= (part.last - part.first) / part.step; ++i) numbers.push_back(part.first + i * part.step);
         start = end + 1;
@@ -100,7 +100,7 @@ std::optional<int> loop_frames(const scene::Scene& scene) {
         return frames_to_repeat(scene.wheel.turns_per_s * scene.wheel.spokes / fps);
     }
     if (scene.image != scene::ImageKind::surface || scene.camera.keys.size() > 1) return std::nullopt;
-    if (scene.surface.drift != glm::dvec3(0.0)) return std::nullopt;
+    if (scene.surface.drift != glm::dvec3(0.0) || scene::clouds_drift(scene)) return std::nullopt;
     return frames_to_repeat(scene.surface.spin_deg_per_s / 360.0 / fps);
 }
 

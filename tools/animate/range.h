@@ -33,8 +33,9 @@ class FrameList {
 
 inline constexpr int kMostFrames = 100'000;  // of one animation
 
-// "12", "0-249", "0-100x2" (every second) or several of these with commas between. Throws UsageError.
-FrameList parse_frames(const std::string& text);
+// "12", "0-249", "0-100x2" (every second) or several of these with commas between; origin is what the text was given
+// to. Throws UsageError.
+FrameList parse_frames(const std::string& text, const std::string& origin = "--frames");
 
 // The frames after which all motion of a scene begins again: the least whole number of them in which a spin makes whole
 // turns, or the wheel's spokes move on by whole spokes. Nothing where it does not repeat within kMostFrames, goes along

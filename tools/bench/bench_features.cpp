@@ -8,7 +8,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <string>
@@ -20,9 +19,11 @@
 #include "src/integrate/resolve.h"
 #include "src/integrate/surface_integrator.h"
 #include "src/integrate/trace_rays.h"
+#include "src/parallel/cpu_clock.h"
 #include "src/render/render.h"
 #include "src/scene/builtin.h"
 #include "src/scene/toml_reader.h"
+#include "tools/report/statistics.h"
 
 namespace {
 
@@ -30,21 +31,10 @@ using namespace strata;
 
 constexpr int kWidth = 192, kHeight = 108;
 
-double cpu_seconds() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 double timed(const std::function<void()>& work) {
-    const double start = cpu_seconds();
+    const double start = parallel::thread_cpu_seconds();
     work();
-    return cpu_seconds() - start;
-}
-
-double quantile(std::vector<double> values, double q) {
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
+    return parallel::thread_cpu_seconds() - start;
 }
 
 void run_pair(benchmark::State& state, double rays, const std::function<void()>& first,
@@ -58,11 +48,12 @@ void run_pair(benchmark::State& state, double rays, const std::function<void()>&
         first_leads = !first_leads;
         ratios.push_back(second_s.back() / first_s.back());
     }
-    state.counters["ratio"] = quantile(ratios, 0.5);
-    state.counters["low"] = quantile(ratios, 0.25);
-    state.counters["high"] = quantile(ratios, 0.75);
-    state.counters["first_ns"] = 1e9 * quantile(first_s, 0.0) / rays;
-    state.counters["second_ns"] = 1e9 * quantile(second_s, 0.0) / rays;
+    const tools::report::Spread ratio = tools::report::spread_of(ratios);
+    state.counters["ratio"] = ratio.median;
+    state.counters["low"] = ratio.low_quartile;
+    state.counters["high"] = ratio.high_quartile;
+    state.counters["first_ns"] = 1e9 * *std::ranges::min_element(first_s) / rays;
+    state.counters["second_ns"] = 1e9 * *std::ranges::min_element(second_s) / rays;
 }
 
 scene::Scene builtin(const char* name) {
@@ -170,7 +161,7 @@ void dimensions(benchmark::State& state) {
         const double first_s = timed([&] { benchmark::DoNotOptimize(first.render()); });
         ratios.push_back(timed([&] { benchmark::DoNotOptimize(second.render()); }) / b / (first_s / a));
     }
-    state.counters["ratio"] = quantile(ratios, 0.5);
+    state.counters["ratio"] = tools::report::spread_of(ratios).median;
 }
 
 }  // namespace

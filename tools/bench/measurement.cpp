@@ -12,15 +12,6 @@
 
 namespace strata::tools::bench {
 
-namespace {
-
-bool same_work(const integrate::Counters& a, const integrate::Counters& b) {
-    return a.rays == b.rays && a.shadow_rays == b.shadow_rays && a.hits == b.hits &&
-           a.noise_evaluations == b.noise_evaluations && a.steps == b.steps;
-}
-
-}  // namespace
-
 double pick_of(const std::vector<double>& values, Pick pick) {
     if (values.empty()) return 0;
     return pick == Pick::least ? *std::ranges::min_element(values) : report::spread_of(values).median;
@@ -65,7 +56,7 @@ bool CaseRound::measure_piece(const parallel::CancelToken& cancel, const paralle
 void CaseRound::add_to(Measurement& measurement) const {
     const State& round = *state_;
     assert(round.next == pieces());
-    if (!measurement.cpu_s.empty() && !same_work(round.counters, measurement.counters)) {
+    if (!measurement.cpu_s.empty() && !integrate::same_counts(round.counters, measurement.counters)) {
         throw std::runtime_error(
             fmt::format("{}: two rounds of the same render did different work", measurement.what.id()));
     }

@@ -25,6 +25,11 @@ struct Measurement {
     std::vector<Phase> phases{};   // of the fastest round
 
     double rays() const { return static_cast<double>(counters.rays); }
+    // The camera's, and all that it led to: to suns, the sky, into water.
+    double rays_a_sample() const {
+        const integrate::Counters& c = counters;
+        return static_cast<double>(c.rays + c.shadow_rays + c.sky_rays + c.water_rays) / rays();
+    }
     double ns_a_ray(Pick pick) const { return 1e9 * pick_of(cpu_s, pick) / rays(); }
     double evaluations_a_ray() const { return static_cast<double>(counters.noise_evaluations) / rays(); }
     double steps_a_ray() const { return static_cast<double>(counters.steps) / rays(); }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "src/parallel/processors.h"
+#include "tools/bench/light_features.h"
 #include "tools/bench/variants.h"
 #include "tools/cli/command_line.h"
 #include "tools/cli/errors.h"
@@ -60,6 +61,7 @@ class Planner {
     void resolution();
     void threads();
     void reference();
+    void light();
     void subset();
 
     Plan plan_;
@@ -199,6 +201,18 @@ void Planner::reference() {
     for (const FrameSize& size : sizes()) plan_.figures.reference = add_reference(size);
 }
 
+// Whole small frames: what a feature costs depends on all that is seen.
+void Planner::light() {
+    const FrameSize size = plan_.settings.quick ? FrameSize{160, 90} : FrameSize{480, 270};
+    const auto add_frame = [&](const Variant& variant) {
+        Case made = sized(variant, size, 2);
+        made.subset = {{{0, 0, size.width, size.height}}, 0};
+        return add(made);
+    };
+    for (const LightFeature& feature : light_features())
+        plan_.light.push_back({feature.name, add_frame(feature.off), add_frame(feature.on)});
+}
+
 // At N = 2 whole frames are cheap: each scene once whole, and once in the blocks that larger N are measured in.
 void Planner::subset() {
     const FrameSize size = table_size();
@@ -221,7 +235,7 @@ Plan Planner::plan() {
         {Section::rows, &Planner::rows},       {Section::octaves, &Planner::octaves},
         {Section::samples, &Planner::samples}, {Section::resolution, &Planner::resolution},
         {Section::threads, &Planner::threads}, {Section::reference, &Planner::reference},
-        {Section::subset, &Planner::subset}};
+        {Section::light, &Planner::light},     {Section::subset, &Planner::subset}};
     for (const auto& [section, make] : makers) {
         if (plan_.has(section)) (this->*make)();
     }
@@ -245,6 +259,7 @@ const std::vector<SectionName>& section_names() {
         {Section::resolution, "resolution", "cost against the frame's width", true},
         {Section::threads, "threads", "two threads against one", true},
         {Section::reference, "reference", "the reference tracer", true},
+        {Section::light, "light", "each part of a still's light, off and on", true},
         {Section::subset, "subset", "the measured part of the frame against all of it", false},
         {Section::peers, "peers", "POV-Ray and Embree", false},
         {Section::memory, "memory", "memory of whole renders, up to 16384x16384", false}};

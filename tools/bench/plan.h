@@ -9,7 +9,20 @@
 
 namespace strata::tools::bench {
 
-enum class Section { figures, scenes, rows, octaves, samples, resolution, threads, reference, subset, peers, memory };
+enum class Section {
+    figures,
+    scenes,
+    rows,
+    octaves,
+    samples,
+    resolution,
+    threads,
+    reference,
+    light,
+    subset,
+    peers,
+    memory
+};
 
 struct SectionName {
     Section section;
@@ -57,12 +70,18 @@ struct SubsetPair {
     std::string part, whole;
 };
 
+// A scene without and with one part of its light, by the cases' ids.
+struct FeaturePair {
+    std::string name, off, on;
+};
+
 struct Plan {
     PlanSettings settings;
     std::vector<Case> cases;
     std::vector<Curve> curves;
     FigureCases figures;
     std::vector<SubsetPair> subset_pairs;
+    std::vector<FeaturePair> light;
 
     bool has(Section section) const;
 };

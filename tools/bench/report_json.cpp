@@ -30,32 +30,28 @@ Json phases_json(const Measurement& m) {
 
 Json case_json(const Measurement& m) {
     const scene::Scene& scene = m.what.scene;
-    return {{"id", m.what.id()},
-            {"mark", m.what.mark()},
-            {"scene", m.what.scene_name},
-            {"width", scene.film.width},
-            {"height", scene.film.height},
-            {"N", scene.sampling.N},
-            {"estimator", scene::name_of(scene.sampling.estimator)},
-            {"octaves", scene.surface.octaves},
-            {"tracer", cli::name_of(m.what.tracer)},
-            {"threads", m.what.threads},
-            {"pixels", m.what.subset.pixels()},
-            {"part", m.what.subset.text()},
-            {"rays", m.counters.rays},
-            {"shadow_rays", m.counters.shadow_rays},
-            {"hits", m.counters.hits},
-            {"unresolved_rays", m.counters.unresolved_rays},
-            {"noise_evaluations", m.counters.noise_evaluations},
-            {"steps", m.counters.steps},
-            {"evaluations_per_ray", number(m.evaluations_a_ray())},
-            {"steps_per_ray", number(m.steps_a_ray())},
-            {"ns_per_ray", number(m.ns_a_ray(Pick::least))},
-            {"ns_per_ray_median", number(m.ns_a_ray(Pick::median))},
-            {"ns_per_evaluation", number(m.ns_an_evaluation(Pick::least))},
-            {"cpu_s", m.cpu_s},
-            {"wall_s", m.wall_s},
-            {"phases", phases_json(m)}};
+    Json json = {{"id", m.what.id()},
+                 {"mark", m.what.mark()},
+                 {"scene", m.what.scene_name},
+                 {"width", scene.film.width},
+                 {"height", scene.film.height},
+                 {"N", scene.sampling.N},
+                 {"estimator", scene::name_of(scene.sampling.estimator)},
+                 {"octaves", scene.surface.octaves},
+                 {"tracer", cli::name_of(m.what.tracer)},
+                 {"threads", m.what.threads},
+                 {"pixels", m.what.subset.pixels()},
+                 {"part", m.what.subset.text()}};
+    json.update(report::counts_json(m.counters));
+    json.update({{"evaluations_per_ray", number(m.evaluations_a_ray())},
+                 {"steps_per_ray", number(m.steps_a_ray())},
+                 {"ns_per_ray", number(m.ns_a_ray(Pick::least))},
+                 {"ns_per_ray_median", number(m.ns_a_ray(Pick::median))},
+                 {"ns_per_evaluation", number(m.ns_an_evaluation(Pick::least))},
+                 {"cpu_s", m.cpu_s},
+                 {"wall_s", m.wall_s},
+                 {"phases", phases_json(m)}});
+    return json;
 }
 
 Json figures_json(const std::vector<Figure>& figures) {
@@ -112,6 +108,21 @@ Json memory_json(const Results& results) {
     return rows;
 }
 
+Json light_json(const Results& results) {
+    Json rows = Json::array();
+    for (const FeaturePair& pair : results.plan.light) {
+        const Measurement *off = find(results.measurements, pair.off), *on = find(results.measurements, pair.on);
+        if (off == nullptr || on == nullptr) continue;
+        rows.push_back({{"name", pair.name},
+                        {"case_off", pair.off},
+                        {"case_on", pair.on},
+                        {"rays_per_sample_off", off->rays_a_sample()},
+                        {"rays_per_sample_on", on->rays_a_sample()},
+                        {"ns_per_ray_ratio", on->ns_a_ray(Pick::least) / off->ns_a_ray(Pick::least)}});
+    }
+    return rows;
+}
+
 Json against_json(const std::vector<Comparison>& earlier) {
     Json rows = Json::array();
     for (const Comparison& row : earlier) {
@@ -144,6 +155,7 @@ std::string json_report(const Results& results, const std::vector<Figure>& figur
               {"cases", cases},
               {"curves", curves_json(results)},
               {"peers", peers_json(results)},
+              {"light", light_json(results)},
               {"memory", memory_json(results)}};
     if (!earlier.empty()) json["against"] = against_json(earlier);
     return report::text_of(json);

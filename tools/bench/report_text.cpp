@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "noise/simd_target.h"
 #include "tools/bench/report.h"
 #include "tools/report/machine.h"
+#include "tools/report/table.h"
 #include "tools/report/text.h"
 
 namespace strata::tools::bench {
@@ -23,21 +22,18 @@ std::string share_text(const Measurement& m) {
     return text;
 }
 
+std::string number_text(double value) { return fmt::format("{:.4g}", value); }
+
 std::string cases_table(const Results& results) {
     if (results.measurements.empty()) return "";
-    std::size_t width = 4;
-    for (const Measurement& m : results.measurements) width = std::max(width, m.what.id().size());
-    const bool shares =
-        std::ranges::any_of(results.measurements, [](const Measurement& m) { return !m.phases.empty(); });
-    std::string text = fmt::format("{:<{}}  {:>9}  {:>8}  {:>8}  {:>9}  {:>9}  {:>7}{}\n", "case", width, "rays",
-                                   "ns/ray", "median", "evals/ray", "steps/ray", "ns/eval", shares ? "  time / %" : "");
+    report::Table table({"case", ">rays", ">ns/ray", ">median", ">evals/ray", ">steps/ray", ">ns/eval", "time / %"});
     for (const Measurement& m : results.measurements) {
-        text += fmt::format("{:<{}}  {:>9}  {:>8.4g}  {:>8.4g}  {:>9.4g}  {:>9.4g}  {:>7.3g}", m.what.id(), width,
-                            report::scaled(m.rays()), m.ns_a_ray(Pick::least), m.ns_a_ray(Pick::median),
-                            m.evaluations_a_ray(), m.steps_a_ray(), m.ns_an_evaluation(Pick::least));
-        text += shares ? fmt::format("  {}\n", share_text(m)) : "\n";
+        table.add({m.what.id(), report::scaled(m.rays()), number_text(m.ns_a_ray(Pick::least)),
+                   number_text(m.ns_a_ray(Pick::median)), number_text(m.evaluations_a_ray()),
+                   number_text(m.steps_a_ray()), fmt::format("{:.3g}", m.ns_an_evaluation(Pick::least)),
+                   share_text(m)});
     }
-    return text + "\n";
+    return table.text() + "\n";
 }
 
 std::string subset_table(const Results& results) {
@@ -52,6 +48,21 @@ std::string subset_table(const Results& results) {
                             part->what.subset.text());
     }
     return text.empty() ? text : "The blocks against the whole frame:\n" + text + "\n";
+}
+
+// Of what a feature adds to a sample.
+std::string light_table(const Results& results) {
+    if (results.plan.light.empty()) return "";
+    report::Table table({"light, of a sample", ">rays", ">evals off", ">on", ">ns off", ">on", ">on/off"});
+    for (const FeaturePair& pair : results.plan.light) {
+        const Measurement *off = find(results.measurements, pair.off), *on = find(results.measurements, pair.on);
+        if (off == nullptr || on == nullptr) continue;
+        const double ns_off = off->ns_a_ray(Pick::least), ns_on = on->ns_a_ray(Pick::least);
+        table.add({pair.name, fmt::format("{:+.2f}", on->rays_a_sample() - off->rays_a_sample()),
+                   number_text(off->evaluations_a_ray()), number_text(on->evaluations_a_ray()), number_text(ns_off),
+                   number_text(ns_on), fmt::format("{:.2f}", ns_on / ns_off)});
+    }
+    return table.text() + "\n";
 }
 
 std::string peers_table(const Results& results) {
@@ -79,19 +90,19 @@ std::string memory_table(const Results& results) {
 }
 
 std::string figures_table(const Results& results, const std::vector<Figure>& figures) {
-    std::string text = fmt::format("{:<14} {:>9} {:>9} {:>8} {:>8}  {:<12}  {}\n", "figure", "value", "medians",
-                                   "floor", "aim", "", "");
+    report::Table table({"figure", ">value", ">medians", ">floor", ">aim", "", ""});
     std::string missing;
     for (const Figure& figure : figures) {
         if (!figure.value) {
             missing += fmt::format("{}{} ({})", missing.empty() ? "" : ", ", figure.name, figure.note);
             continue;
         }
-        text += fmt::format("{:<14} {:>9} {:>9} {:>8} {:>8}  {:<12}  {}{}\n", figure.name, figure.text(*figure.value),
-                            figure.of_medians ? figure.text(*figure.of_medians) : "", figure.text(figure.floor),
-                            figure.aim ? figure.text(*figure.aim) : "", verdict_name(figure.verdict()), figure.meaning,
-                            figure.note.empty() ? "" : fmt::format(" ({})", figure.note));
+        table.add({figure.name, figure.text(*figure.value), figure.of_medians ? figure.text(*figure.of_medians) : "",
+                   figure.text(figure.floor), figure.aim ? figure.text(*figure.aim) : "",
+                   verdict_name(figure.verdict()),
+                   figure.meaning + (figure.note.empty() ? "" : fmt::format(" ({})", figure.note))});
     }
+    std::string text = table.text();
     if (!missing.empty()) text += fmt::format("Not measured: {}\n", missing);
     const PlanSettings& settings = results.plan.settings;
     if (settings.quick || settings.rays)
@@ -101,21 +112,17 @@ std::string figures_table(const Results& results, const std::vector<Figure>& fig
 
 std::string comparison_table(const std::vector<Comparison>& earlier) {
     if (earlier.empty()) return "";
-    std::size_t width = 4;
-    for (const Comparison& row : earlier) width = std::max(width, row.id.size());
-    std::string text =
-        fmt::format("\n{:<{}}  {:>7}  {:>7}  {:>9}\n", "now over then", width, "ns/ray", "median", "evals/ray");
+    report::Table table({"now over then", ">ns/ray", ">median", ">evals/ray"});
+    const auto ratio = [](double value) { return fmt::format("{:.3f}", value); };
     for (const Comparison& row : earlier) {
-        text += fmt::format("{:<{}}  {:>7.3f}  {:>7.3f}  {:>9.3f}\n", row.id, width, row.time_ratio, row.median_ratio,
-                            row.evaluations_ratio);
+        table.add({row.id, ratio(row.time_ratio), ratio(row.median_ratio), ratio(row.evaluations_ratio)});
     }
     const Overall all = overall(earlier);
-    if (all.fast) text += fmt::format("{:<{}}  {:>7.3f}\n", "geometric mean", width, *all.fast);
+    if (all.fast) table.add({"geometric mean", ratio(*all.fast)});
     if (all.fast && all.reference) {
-        text += fmt::format("{:<{}}  {:>7.3f}\n", "the same over the reference tracer's, for the machine", width,
-                            *all.fast / *all.reference);
+        table.add({"the same over the reference tracer's, for the machine", ratio(*all.fast / *all.reference)});
     }
-    return text;
+    return "\n" + table.text();
 }
 
 }  // namespace
@@ -125,7 +132,8 @@ std::string text_report(const Results& results, const std::vector<Figure>& figur
     std::string text =
         fmt::format("{}, {}; CPU time, least and median of {} round{}; one thread unless said\n\n",
                     report::processor_name(), noise::simd_target(), results.rounds, results.rounds == 1 ? "" : "s");
-    text += cases_table(results) + subset_table(results) + peers_table(results) + memory_table(results);
+    text += cases_table(results) + light_table(results) + subset_table(results) + peers_table(results) +
+            memory_table(results);
     return text + figures_table(results, figures) + comparison_table(earlier);
 }
 

@@ -164,9 +164,6 @@ void end_programs(int signal) noexcept {
     }
 }
 
-namespace {
-
-// Empty if it is not there.
 fs::path search_path(const std::string& name) {
     const char* path = std::getenv("PATH");
     std::string_view folders = path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin";
@@ -178,8 +175,6 @@ fs::path search_path(const std::string& name) {
     }
     return {};
 }
-
-}  // namespace
 
 fs::path find_program(const std::string& name, const std::string& debian_package, const std::string& section) {
     fs::path found = search_path(name);

@@ -16,6 +16,9 @@ class ProcessError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// A program's path by PATH; empty if it is not there.
+std::filesystem::path search_path(const std::string& name);
+
 // The program's path by PATH. When it is not there, its section of tools/setup/packages.txt is installed, if that can
 // be (installer.h): so ask only for what is certain to be used, after all else is checked. Throws ProcessError, naming
 // the Debian package that has it, when it is not there then either.

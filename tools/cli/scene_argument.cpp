@@ -12,6 +12,7 @@
 #include "src/image/image_error.h"
 #include "src/image/metadata.h"
 #include "src/image/read.h"
+#include "src/render/meter.h"
 #include "src/scene/builtin.h"
 #include "src/scene/enum_names.h"
 #include "src/scene/key_text.h"
@@ -23,6 +24,7 @@
 #include "src/scene/validate.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/shared_options.h"
+#include "tools/cli/shell_word.h"
 #include "tools/cli/standard_output.h"
 #include "tools/cli/stream_input.h"
 
@@ -68,10 +70,12 @@ std::string unknown_scene(const std::string& name) {
 }
 
 LoadedScene from_picture(const std::filesystem::path& path, const std::string& source) {
-    const auto text = image::read_metadata(path, image::kSceneKey);
+    const image::PictureFacts facts = image::read_facts(path);
+    const image::Metadata& metadata = facts.metadata;
+    const auto text = metadata.find(image::kSceneKey);
     if (!text) throw UsageError(source + ": this picture does not say how it was made: strata did not write it");
     // The scene may still be right, and is how the picture is made anew.
-    if (image::read_facts(path).integrity == image::Integrity::damaged) {
+    if (facts.integrity == image::Integrity::damaged) {
         print_error(
             fmt::format("warning: {} is damaged: its bytes are not those that were written, and what it says of its "
                         "scene may be wrong",
@@ -82,18 +86,18 @@ LoadedScene from_picture(const std::filesystem::path& path, const std::string& s
     loaded.name = path.stem().string();
     // Rendered again, an interrupted picture becomes whole.
     constexpr std::string_view kPartial = ".partial";
-    if (image::read_metadata(path, "strata:partial") && loaded.name.ends_with(kPartial)) {
+    if (metadata.find("strata:partial") && loaded.name.ends_with(kPartial)) {
         loaded.name.resize(loaded.name.size() - kPartial.size());
     }
-    loaded.crop = image::read_metadata(path, "strata:crop");
-    loaded.tracer = image::read_metadata(path, "strata:tracer");
-    loaded.exr_format = image::read_metadata(path, "strata:format");
-    loaded.aovs = image::read_metadata(path, "strata:aov");
-    loaded.layers = image::read_metadata(path, "strata:layers");
-    loaded.layer_prefix = image::read_metadata(path, "strata:layer_prefix");
-    loaded.is_tiled = image::read_metadata(path, "strata:tiled").has_value();
-    loaded.simd_target = image::read_metadata(path, "strata:simd_target");
-    loaded.passes = image::read_metadata(path, "strata:passes");
+    loaded.crop = metadata.find("strata:crop");
+    loaded.tracer = metadata.find("strata:tracer");
+    loaded.exr_format = metadata.find("strata:format");
+    loaded.aovs = metadata.find("strata:aov");
+    loaded.layers = metadata.find("strata:layers");
+    loaded.layer_prefix = metadata.find("strata:layer_prefix");
+    loaded.is_tiled = metadata.find("strata:tiled").has_value();
+    loaded.simd_target = metadata.find("strata:simd_target");
+    loaded.passes = metadata.find("strata:passes");
     return loaded;
 }
 
@@ -138,6 +142,24 @@ void SceneArgument::add_changes(Command& command) {
         ->repeated();
     command.add_option("--size", size_, "WxH",
                        "Frame in pixels, 1 to 65536 a side; default the scene's film.width, film.height");
+}
+
+SceneArgument SceneArgument::of(std::string scene) const {
+    SceneArgument other = *this;
+    other.scene_ = std::move(scene);
+    return other;
+}
+
+std::string SceneArgument::typed_changes() const {
+    std::string text;
+    for (const std::string& set : sets_) text += " --set " + shell_word(set);
+    if (size_) text += " --size " + shell_word(*size_);
+    for (std::size_t i = 0; i < key_values_.size(); ++i) {
+        const std::string_view names = kKeyOptions[i].names;
+        if (key_values_[i])
+            text += fmt::format(" {} {}", names.substr(0, names.find(',')), shell_word(*key_values_[i]));
+    }
+    return text;
 }
 
 bool SceneArgument::size_given() const {
@@ -219,6 +241,7 @@ LoadedScene SceneArgument::load() const {
                               fmt::format("{} {}", shown_name(kKeyOptions[i].names), scene::excerpt(*key_values_[i])));
     }
     scene::validate(scene, loaded.source);
+    render::take_exposure(scene);
     return loaded;
 }
 

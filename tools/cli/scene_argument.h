@@ -11,6 +11,7 @@
 
 #include "src/film/film.h"
 #include "src/integrate/surface_image.h"
+#include "src/scene/builtin.h"
 #include "src/scene/scene.h"
 #include "tools/cli/command_line.h"
 
@@ -41,6 +42,12 @@ class SceneArgument {
     // Adds SCENE, which must be given, --set and --size alone: for commands that choose N, m, estimator and seeds.
     void add_scene_to(Command& command, const std::string& description);
 
+    // The same changes of another scene.
+    SceneArgument of(std::string scene) const;
+
+    // --set, --size and the options that stand for scene keys, as they may be typed again: each after a blank.
+    std::string typed_changes() const;
+
     // Whether --size or --set says how large the frame is.
     bool size_given() const;
 
@@ -52,7 +59,7 @@ class SceneArgument {
     LoadedScene find() const;
     void add_changes(Command& command);
 
-    std::string scene_ = "terrain";
+    std::string scene_{scene::kDefaultScene};
     std::optional<std::string> size_;
     std::vector<std::string> sets_;
     std::vector<std::optional<std::string>> key_values_;  // one a KeyOption, as typed

@@ -1,6 +1,3 @@
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <cmath>
 
 #include "noise/simd_target.h"
@@ -8,10 +5,10 @@
 #include "src/scene/printer.h"
 #include "tools/cli/shared_options.h"
 #include "tools/converge/report.h"
-#include "tools/report/csv.h"
 #include "tools/report/json.h"
 #include "tools/report/machine.h"
 #include "tools/report/statistics.h"
+#include "tools/report/table.h"
 
 namespace strata::tools::converge {
 
@@ -31,37 +28,30 @@ Json row_of(const Report& report, const Point& point) {
     const std::optional<double> bias = visible_bias(report.experiment, point);
     const report::Spread seconds = report::spread_of(point.seconds);
     const report::Spread cpu = report::spread_of(point.cpu_seconds);
-    return {{"function", report.function},
-            {"estimator", scene::name_of(point.estimator)},
-            {"m", point.m},
-            {"N", point.N},
-            {"tracer", cli::name_of(point.tracer)},
-            {"seed_count", point.seeds()},
-            {"rays", point.counters.rays},
-            {"shadow_rays", point.counters.shadow_rays},
-            {"noise_evaluations", point.counters.noise_evaluations},
-            {"repeats", point.seconds.size()},
-            {"seconds", seconds.median},
-            {"seconds_low_quartile", seconds.low_quartile},
-            {"seconds_high_quartile", seconds.high_quartile},
-            {"cpu_seconds", cpu.median},
-            {"cpu_seconds_low_quartile", cpu.low_quartile},
-            {"cpu_seconds_high_quartile", cpu.high_quartile},
-            {"rmse", number(rmse.value)},
-            {"rmse_ci", number(rmse.half_width)},
-            {"relative_rmse", number(mean(point.relative))},
-            {"max_error", number(mean(point.largest))},
-            {"percentile99", number(mean(point.percentile99))},
-            {"neighbour_correlation", number(point.errors.neighbour_correlation())},
-            {"bias_mean", number(point.errors.mean())},
-            {"bias_rms", number(bias)},
-            {"limited_by", limit_name(point.limit)}};
-}
-
-std::string csv_text(const Json& value) {
-    if (value.is_null()) return "";
-    if (!value.is_string()) return value.dump();
-    return report::csv_cell(value.get_ref<const std::string&>());
+    Json row{{"function", report.function},
+             {"estimator", scene::name_of(point.estimator)},
+             {"m", point.m},
+             {"N", point.N},
+             {"tracer", cli::name_of(point.tracer)},
+             {"seed_count", point.seeds()}};
+    row.update(report::counts_json(point.counters));
+    row.update({{"repeats", point.seconds.size()},
+                {"seconds", seconds.median},
+                {"seconds_low_quartile", seconds.low_quartile},
+                {"seconds_high_quartile", seconds.high_quartile},
+                {"cpu_seconds", cpu.median},
+                {"cpu_seconds_low_quartile", cpu.low_quartile},
+                {"cpu_seconds_high_quartile", cpu.high_quartile},
+                {"rmse", number(rmse.value)},
+                {"rmse_ci", number(rmse.half_width)},
+                {"relative_rmse", number(mean(point.relative))},
+                {"max_error", number(mean(point.largest))},
+                {"percentile99", number(mean(point.percentile99))},
+                {"neighbour_correlation", number(point.errors.neighbour_correlation())},
+                {"bias_mean", number(point.errors.mean())},
+                {"bias_rms", number(bias)},
+                {"limited_by", limit_name(point.limit)}});
+    return row;
 }
 
 Json slopes_json(const Analysis& analysis) {
@@ -136,19 +126,9 @@ Json references_json(const Experiment& experiment) {
 }  // namespace
 
 std::string converge_csv(const Report& report) {
-    std::string text;
-    for (const Point& point : report.experiment.points) {
-        const Json row = row_of(report, point);
-        std::vector<std::string> names;
-        std::vector<std::string> values;
-        for (const auto& [name, value] : row.items()) {
-            names.push_back(name);
-            values.push_back(csv_text(value));
-        }
-        if (text.empty()) text = fmt::format("{}\n", fmt::join(names, ","));
-        text += fmt::format("{}\n", fmt::join(values, ","));
-    }
-    return text;
+    std::vector<Json> rows;
+    for (const Point& point : report.experiment.points) rows.push_back(row_of(report, point));
+    return report::csv_of(rows);
 }
 
 std::string converge_json(const Report& report) {

@@ -10,6 +10,7 @@
 #include "tools/cli/shared_options.h"
 #include "tools/converge/report.h"
 #include "tools/report/machine.h"
+#include "tools/report/table.h"
 
 namespace strata::tools::converge {
 
@@ -55,8 +56,7 @@ std::string correlation_text(const Series& series) {
 std::string setting_text(const Report& report) {
     const Experiment& e = report.experiment;
     std::string text = fmt::format(
-        "`{}`, {} × {} pixels. Errors are of linear radiance against the same filter's picture, over {} seeds from "
-        "{}. "
+        "`{}`, {} × {} pixels. Errors are of linear radiance against the same filter's picture, over {} seeds from {}. "
         "Times are of the CPU, medians of at least {} interleaved renders on {} thread{} of {} ({}); those by the "
         "clock are in the files.\n",
         report.function, e.scene.film.width, e.scene.film.height, e.settings.seeds, e.first_seed, e.settings.repeats,
@@ -123,39 +123,30 @@ std::string advice(const Report& report) {
         for (std::size_t target = 0; target < kTargets.size(); ++target) text += advice(report, m, target);
     }
     return text +
-           "\nThe least time for the error asked for; where one sample a pixel suffices (≤), any will do. Errors "
-           "of "
-           "`shared` and `shared-sobol` spread over neighbouring pixels (last column below): at equal RMSE their "
-           "grain "
-           "is coarser. Errors of `super` and `uniform` are the same in every render: they show as patterns, not "
-           "as "
+           "\nThe least time for the error asked for; where one sample a pixel suffices (≤), any will do. Errors of "
+           "`shared` and `shared-sobol` spread over neighbouring pixels (last column below): at equal RMSE their grain "
+           "is coarser. Errors of `super` and `uniform` are the same in every render: they show as patterns, not as "
            "grain.\n";
 }
 
 std::string table(const Report& report) {
-    std::string text =
-        "## Time to reach an error\n\n"
-        "| m | estimator | slope against samples | RMSE / stratified, equal N | 1/64 | 1/256 | 1/1024 | "
-        "neighbours' "
-        "correlation |\n"
-        "|---|---|---|---|---|---|---|---|\n";
+    report::Table table({"m", "estimator", "slope against samples", "RMSE / stratified, equal N", "1/64", "1/256",
+                         "1/1024", "neighbours' correlation"});
     std::vector<const Series*> sorted;
     for (const Series& series : report.analysis.series) sorted.push_back(&series);
     std::ranges::stable_sort(sorted, {}, [](const Series* series) { return series->m; });
     for (const Series* series : sorted) {
         const auto& law = series->against_samples;
-        text += fmt::format("| {} | {} | {} | {} |", series->m, series_name(report.experiment, *series),
-                            law ? fmt::format("{:.2f} ± {:.2f}", law->slope, law->slope_ci) : "-",
-                            series->error_ratio ? fmt::format("{:.2f}", *series->error_ratio) : "-");
-        for (std::size_t target = 0; target < kTargets.size(); ++target)
-            text += fmt::format(" {} |", time_cell(*series, target));
-        text += fmt::format(" {} |\n", correlation_text(*series));
+        std::vector<std::string> cells{fmt::format("{}", series->m), series_name(report.experiment, *series),
+                                       law ? fmt::format("{:.2f} ± {:.2f}", law->slope, law->slope_ci) : "-",
+                                       series->error_ratio ? fmt::format("{:.2f}", *series->error_ratio) : "-"};
+        for (std::size_t target = 0; target < kTargets.size(); ++target) cells.push_back(time_cell(*series, target));
+        cells.push_back(correlation_text(*series));
+        table.add(std::move(cells));
     }
-    return text +
-           "\nIn brackets: the paper's method's time (`stratified`, same order) over this one's. ~: extrapolated "
-           "along "
-           "the fitted slope; ≤: the smallest N is below already. Slopes are of RMSE against N², with 95 % "
-           "intervals; "
+    return "## Time to reach an error\n\n" + table.markdown() +
+           "\nIn brackets: the paper's method's time (`stratified`, same order) over this one's. ~: extrapolated along "
+           "the fitted slope; ≤: the smallest N is below already. Slopes are of RMSE against N², with 95 % intervals; "
            "theory knows -1/2 for independent samples, -3/4 for strata across an edge, -1 for strata on smooth "
            "pictures.\n";
 }
@@ -173,8 +164,7 @@ std::string bias_text(const Report& report) {
                                 test.z_of_squares);
     }
     std::string text = fmt::format(
-        "Bias: {} points of `stratified`, `random` and `sobol` were tested against the exact picture, in the "
-        "picture's "
+        "Bias: {} points of `stratified`, `random` and `sobol` were tested against the exact picture, in the picture's "
         "mean (|z| ≤ {:.2f}) and pixel by pixel (z ≤ {:.2f}); an unbiased estimator would fail any of them with a "
         "probability of {:.0f} % (Šidák). {}\n",
         analysis.tests.size(), analysis.mean_threshold, analysis.squares_threshold, 100 * analysis.family_level,
@@ -197,8 +187,7 @@ std::string weighted_bias_text(const Report& report) {
                             list.empty() ? "below the noise at every N" : list);
     }
     if (text.empty()) return text;
-    return "\nBias of the estimators that divide by a sum of weights (root mean square over pixels, where it "
-           "stands "
+    return "\nBias of the estimators that divide by a sum of weights (root mean square over pixels, where it stands "
            "out of the noise):\n\n" +
            text;
 }
@@ -213,8 +202,7 @@ std::string limits_text(const Report& report) {
     std::string text;
     if (by_reference > 0) {
         text += fmt::format(
-            "\n{} points are reference-limited (within three times the reference's own error): they are marked in "
-            "the "
+            "\n{} points are reference-limited (within three times the reference's own error): they are marked in the "
             "files and left out of slopes and times.\n",
             by_reference);
     }

@@ -74,6 +74,14 @@ int explain_command(const ExplainRequest& request) {
     return files.all_written() ? 0 : cli::kExitRuntime;
 }
 
+std::string count_names() {
+    std::string names = "rays";
+    for (const auto& [name, count] : integrate::kCounters) {
+        if (is_predicted(count)) names += std::string(", ") + name;
+    }
+    return names;
+}
+
 }  // namespace
 
 void add_command(cli::Command& program) {
@@ -109,8 +117,10 @@ void add_command(cli::Command& program) {
         "role geometry (hits and normals), normal or nothing; below_tolerance_from is null for isosurfaces;\n"
         "relief [{name, type, of, octaves, low, high, slope, bend}], its terms with bounds in surface units;\n"
         "pilot {rays, share, cpu_seconds} or null; recorded {passes, threads, simd_target} or null, of --stats;\n"
-        "costs {rays, shadow_rays, hits, noise_evaluations, executed_lanes, steps, cpu_seconds, seconds,\n"
-        "peak_memory_bytes}, each {predicted, low, high, actual, ratio}, null where not known.\n"
+        "costs {" +
+        count_names() +
+        ",\n"
+        "cpu_seconds, seconds, peak_memory_bytes}, each {predicted, low, high, actual, ratio}, null where not known.\n"
         "low and high: of counts. Of several passes costs are those of one.\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, scene or --stats.");
     command->action([request] { return explain_command(*request); });

@@ -94,13 +94,13 @@ CountEstimate estimate_count(const PilotRun& pilot, double rays, const BlockCoun
     const double scale = rays / pilot_rays;
     const double unseen = std::max(0.0, 1.0 - 1.0 / scale);  // share of the rays that the pilot has not cast
     double half_width = scale * std::sqrt(unseen) * chance(pilot, count, total / pilot_rays);
-    if (half_width == 0.0 && count.at_most_one_a_ray)
-        half_width = rays * unseen * std::min(1.0, kUnseenBlocks / blocks);
+    const double most = count.most_a_ray.value_or(0.0) * rays;
+    if (half_width == 0.0) half_width = most * unseen * std::min(1.0, kUnseenBlocks / blocks);
     half_width += scale * doubt;
     // What the pilot's samples did the render's do as well.
     CountEstimate estimate{scale * total, std::max(total - doubt, scale * total - half_width),
                            scale * total + half_width};
-    if (count.at_most_one_a_ray) estimate.high = std::min(estimate.high, rays);
+    if (count.most_a_ray) estimate.high = std::min(estimate.high, most);
     return estimate;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "tools/explain/pilot.h"
 
@@ -16,7 +17,7 @@ struct BlockCount {
     std::function<double(const integrate::Counters&)> of;  // what is counted, in a block
     // By how much a render may count more or less for the same samples, in other batches; may be empty.
     std::function<double(const integrate::Counters&)> doubt{};
-    bool at_most_one_a_ray = false;
+    std::optional<double> most_a_ray{};  // if it is bounded
 };
 
 // Of a render of `rays` rays.

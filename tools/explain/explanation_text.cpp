@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "src/scene/enum_names.h"
 #include "tools/cli/progress_printer.h"
 #include "tools/explain/explanation.h"
+#include "tools/report/table.h"
 #include "tools/report/text.h"
 
 namespace strata::tools::explain {
@@ -30,12 +33,29 @@ std::string headline(const Explanation& explanation) {
                               explanation.simd_target, threads, threads == 1 ? "" : "s");
 }
 
-std::string features_text(const Plan& plan, bool needed, const char* heading) {
-    std::string text = fmt::format("\n{:<17}why\n", heading);
+// Those that are left out for one reason share a line.
+std::vector<Feature> told_features(const Plan& plan, bool needed) {
+    std::vector<Feature> told;
+    std::vector<std::string> others;
     for (const Feature& feature : plan.features) {
-        if (feature.needed == needed) text += fmt::format("  {:<15}{}\n", feature.name, feature.why);
+        if (feature.needed != needed) continue;
+        const auto same = std::ranges::find(told, feature.why, &Feature::why);
+        if (needed || same == told.end()) {
+            told.push_back(feature);
+            others.emplace_back();
+        } else {
+            std::string& names = others[static_cast<std::size_t>(same - told.begin())];
+            names += (names.empty() ? "; so also " : ", ") + feature.name;
+        }
     }
-    return text;
+    for (std::size_t i = 0; i < told.size(); ++i) told[i].why += others[i];
+    return told;
+}
+
+std::string features_text(const Plan& plan, bool needed, const char* heading) {
+    report::Table table({heading, "why"});
+    for (const Feature& feature : told_features(plan, needed)) table.add({"  " + feature.name, feature.why});
+    return "\n" + table.text();
 }
 
 // One role for all distances, or each with where it begins.
@@ -50,27 +70,25 @@ std::string roles_text(const OctavePlan& octave) {
 
 std::string octaves_text(const Plan& plan) {
     if (plan.octaves.empty()) return {};
-    std::string text = fmt::format("\n{:<8}{:>11}{:>12}{:>18}{:>23}  {}\n", "octave", "amplitude", "wavelength",
-                                   "a pixel wide at", "below tolerance from", "role");
+    report::Table table({">octave", ">amplitude", ">wavelength", ">a pixel wide at", ">below tolerance from", "role"});
     for (const OctavePlan& octave : plan.octaves) {
-        text +=
-            fmt::format("{:>4}    {:>11.3g}{:>12}{:>18}{:>23}  {}\n", octave.octave, octave.amplitude,
-                        length(octave.wavelength), length(octave.pixel_wide_at),
-                        octave.below_tolerance_from ? length(*octave.below_tolerance_from) : "-", roles_text(octave));
+        table.add({fmt::format("{}", octave.octave), fmt::format("{:.3g}", octave.amplitude), length(octave.wavelength),
+                   length(octave.pixel_wide_at),
+                   octave.below_tolerance_from ? length(*octave.below_tolerance_from) : "-", roles_text(octave)});
     }
-    return text + plan.octaves_note;
+    return "\n" + table.text() + plan.octaves_note;
 }
 
 std::string relief_text(const Plan& plan) {
     if (plan.relief.empty()) return {};
-    std::string text = fmt::format("\n{:<16}{:<10}{:<20}{:>9}{:>22}{:>9}{:>11}\n", "relief", "type", "of", "octaves",
-                                   "heights", "slope", "bend");
+    report::Table table({"relief", "type", "of", ">octaves", ">heights", ">slope", ">bend"});
     for (const ReliefRow& row : plan.relief) {
         const noise::Certificate& c = row.certificate;
-        text += fmt::format("  {:<14}{:<10}{:<20}{:>9}{:>22}{:>9.3g}{:>11.3g}\n", row.name, row.type, row.of,
-                            row.octaves, fmt::format("{:.4g} to {:.4g}", c.low, c.high), c.slope, c.bend);
+        table.add({"  " + row.name, row.type, row.of, fmt::format("{}", row.octaves),
+                   fmt::format("{:.4g} to {:.4g}", c.low, c.high), fmt::format("{:.3g}", c.slope),
+                   fmt::format("{:.3g}", c.bend)});
     }
-    return text +
+    return "\n" + table.text() +
            "Bounds of each term everywhere, in surface units: no height, slope or change of slope exceeds them.\n";
 }
 
@@ -84,25 +102,22 @@ std::string value_text(const std::string& name, const std::optional<double>& val
 std::string costs_text(const Explanation& explanation) {
     const bool beside = explanation.recorded.has_value();
     const double rays = static_cast<double>(explanation.prediction.costs.rays);
-    std::string text = fmt::format("\n{:<20}{:>12}{:>10}{:>22}", "cost", "predicted", "a ray", "99 % sure: between");
-    if (beside) text += fmt::format("{:>12}{:>20}", "actual", "predicted/actual");
-    text += "\n";
+    std::vector<std::string> headings{"cost", ">predicted", ">a ray", ">99 % sure: between"};
+    if (beside) headings.insert(headings.end(), {">actual", ">predicted/actual"});
+    report::Table table(headings);
     for (const NamedCost& cost : costs_of(explanation)) {
         const std::string name = cost.name;
         const bool counts = !name.ends_with("seconds") && !name.ends_with("bytes");
-        const std::string a_ray = counts && cost.predicted ? fmt::format("{:.3g}", *cost.predicted / rays) : "";
-        const std::string between =
-            cost.between ? report::scaled(cost.between->low) + " and " + report::scaled(cost.between->high)
-                         : std::string();
-        text += fmt::format("{:<20}{:>12}{:>10}{:>22}", name, value_text(name, cost.predicted), a_ray, between);
-        if (beside) {
-            const auto ratio = cost.ratio();
-            text +=
-                fmt::format("{:>12}{:>20}", value_text(name, cost.actual), ratio ? fmt::format("{:.2f}", *ratio) : "-");
-        }
-        text += "\n";
+        std::vector<std::string> cells{
+            name, value_text(name, cost.predicted),
+            counts && cost.predicted ? fmt::format("{:.3g}", *cost.predicted / rays) : "",
+            cost.between ? report::scaled(cost.between->low) + " and " + report::scaled(cost.between->high) : ""};
+        const auto ratio = cost.ratio();
+        if (beside) cells.push_back(value_text(name, cost.actual));
+        if (beside) cells.push_back(ratio ? fmt::format("{:.2f}", *ratio) : "-");
+        table.add(std::move(cells));
     }
-    return text;
+    return "\n" + table.text();
 }
 
 std::string basis_text(const Explanation& explanation) {
@@ -136,21 +151,20 @@ std::optional<double> NamedCost::ratio() const {
 
 std::vector<NamedCost> costs_of(const Explanation& explanation) {
     const Costs& p = explanation.prediction.costs;
-    const CountsBetween& between = explanation.prediction.between;
     const Costs none;
     const bool beside = explanation.recorded.has_value();
     const Costs& a = beside ? explanation.recorded->costs : none;
     std::optional<double> actual_rays;
     if (beside) actual_rays = static_cast<double>(a.rays);
-    return {{"rays", static_cast<double>(p.rays), actual_rays},
-            {"shadow_rays", p.shadow_rays, a.shadow_rays, between.shadow_rays},
-            {"hits", p.hits, a.hits, between.hits},
-            {"noise_evaluations", p.noise_evaluations, a.noise_evaluations, between.noise_evaluations},
-            {"executed_lanes", p.executed_lanes, a.executed_lanes, between.executed_lanes},
-            {"steps", p.steps, a.steps, between.steps},
-            {"cpu_seconds", p.cpu_seconds, a.cpu_seconds},
-            {"seconds", p.seconds, a.seconds},
-            {"peak_memory_bytes", p.peak_memory_bytes, a.peak_memory_bytes}};
+    std::vector<NamedCost> costs{{"rays", static_cast<double>(p.rays), actual_rays}};
+    for (const auto& [name, count] : integrate::kCounters) {
+        if (!is_predicted(count)) continue;
+        costs.push_back({name, p.counts[count], a.counts[count], explanation.prediction.between[count]});
+    }
+    costs.insert(costs.end(), {{"cpu_seconds", p.cpu_seconds, a.cpu_seconds},
+                               {"seconds", p.seconds, a.seconds},
+                               {"peak_memory_bytes", p.peak_memory_bytes, a.peak_memory_bytes}});
+    return costs;
 }
 
 std::string explanation_text(const Explanation& explanation) {

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "shaders_cpu/scene_parts.h"
 #include "src/estimate/estimator.h"
 #include "src/filter/bspline_table.h"
 #include "src/scene/camera_path.h"
@@ -18,7 +19,9 @@ namespace {
 
 class FeatureList {
   public:
-    void add(const char* name, bool needed, std::string why) { features_.push_back({name, needed, std::move(why)}); }
+    void add(std::string name, bool needed, std::string why) {
+        features_.push_back({std::move(name), needed, std::move(why)});
+    }
     // One sentence for each of two cases.
     void add(const char* name, bool needed, const char* why, const char* why_not) {
         features_.push_back({name, needed, needed ? why : why_not});
@@ -63,6 +66,10 @@ void add_motion(FeatureList& list, const scene::Scene& scene) {
              scene.surface.drift == glm::dvec3(0.0)
                  ? "surface.drift is 0"
                  : "this drift does not change the surface: no octaves, or a height field that drifts up or down");
+    if (scene.clouds.empty()) return;
+    list.add("drifting clouds", motion.clouds,
+             "each sample sees the clouds, and their shadows, where they are at its time",
+             "wind_m_s is 0 in all [[clouds]]");
 }
 
 const char* shadow_reason(const scene::Sun& sun) {
@@ -105,22 +112,18 @@ void add_surface(FeatureList& list, const scene::Scene& scene) {
              sky_rays ? fmt::format("a ray a hit; what it meets is lit in its turn, sky.bounces = {} times at most",
                                     scene.sky.bounces)
                       : "sky.light is \"open\": the sky's light by a formula, as if all of it were seen");
-    const bool daylight = scene.sky.model == scene::SkyModel::daylight;
-    list.add("daylight", daylight, "sun, sky and air by the Earth's atmosphere: tables of 0.2 s, made once",
-             "sky.model is \"gradient\"");
-    list.add("sunlight", daylight || scene.sun.intensity > 0.0,
-             daylight ? "the sun's light through the air" : "sun.intensity is above 0",
-             "sun.intensity is 0: skylight alone");
-    list.add("sky", true, "what rays see that meet nothing, and the skylight");
-    list.add("haze", daylight || scene.sky.haze_distance > 0.0,
-             daylight ? "the air between, by sky.visibility_km" : "a hit's colour fades into the sky behind it",
-             "sky.haze_distance is 0");
-    const bool layered = !scene.ground.empty();
-    list.add("ground", layered,
-             layered
-                 ? fmt::format("{} layers of [[ground]], by height, slope, facing, noise and beds", scene.ground.size())
-                 : "no [[ground]]: colour by [material]");
-    list.add("material", !layered, "colour by height and slope: [material]", "[[ground]] stands for [material]");
+    const bool shafts = scene::needs_fog_shafts(scene);
+    list.add("shafts of sunlight", shafts,
+             shafts ? "a place in the fog a sample, and a shadow ray from there"
+                    : "fog.shafts is false, or there is no fog: hills throw no shadow into it");
+    const bool water = scene::needs_water(scene);
+    list.add("water", water,
+             water ? fmt::format("level, at {} m: a mirrored and a refracted ray where a ray ends on it",
+                                 scene.water.level_m)
+                   : "water.present is false");
+    for (shaders::ScenePart& part : shaders::scene_parts(scene)) {
+        list.add(part.name, part.is_needed, std::move(part.why));
+    }
 }
 
 std::vector<ReliefRow> relief_rows(const scene::Surface& surface) {

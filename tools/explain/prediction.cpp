@@ -80,11 +80,13 @@ double expected_memory(const film::Rect& window, const estimate::Estimator& esti
 
 // Counts that are known to be zero.
 void leave_out(const scene::Scene& scene, Costs& costs) {
+    using integrate::Counters;
     if (scene.image != scene::ImageKind::surface) {
-        costs.shadow_rays = costs.hits = costs.noise_evaluations = costs.steps = costs.executed_lanes = 0.0;
-    } else if (!scene::needs_shadow_rays(scene)) {
-        costs.shadow_rays = 0.0;
+        for (const auto& [name, count] : integrate::kCounters) costs.counts[count] = 0.0;
     }
+    if (!scene::needs_shadow_rays(scene)) costs.counts[&Counters::shadow_rays] = 0.0;
+    if (!scene::needs_sky_rays(scene)) costs.counts[&Counters::sky_rays] = 0.0;
+    if (!scene::needs_water(scene)) costs.counts[&Counters::water_rays] = 0.0;
 }
 
 // What beams and windows do is done once for each cell of the screen that a batch touches, whatever its samples.
@@ -123,27 +125,42 @@ BlockCount of_lanes(double correction) {
     return {lanes.of, [=](const integrate::Counters& c) { return kIdleDoubt * lanes.of(c) + lanes.doubt(c); }};
 }
 
-template <class Member>
-BlockCount of_each_ray(Member member) {
-    return {[=](const integrate::Counters& c) { return static_cast<double>(c.*member); }, {}, true};
+// How many more of a count a ray from the eye may lead to: it hits once, or water, which sends on two rays that may
+// each hit; and each hit sends one to the sun and one to the sky, which may hit in its turn.
+double most_a_ray(const scene::Scene& scene, Count count) {
+    const double sky_rays = scene::needs_sky_rays(scene) ? 1.0 + scene.sky.bounces : 0.0;
+    const double water_rays = scene::needs_water(scene) ? 2.0 : 0.0, seen = 1.0 + water_rays;
+    if (count == &integrate::Counters::water_rays) return water_rays;
+    if (count == &integrate::Counters::sky_rays) return sky_rays * seen;
+    return count == &integrate::Counters::shadow_rays ? (1.0 + sky_rays) * seen : 1.0;
 }
 
-void extrapolate(const PilotRun& run, double estimator_s, int threads, Prediction& prediction) {
-    using integrate::Counters;
+// What beams and windows have no part in is counted ray by ray.
+BlockCount block_count(const scene::Scene& scene, Count count, double correction) {
+    using integrate::Counters, integrate::PhaseCost;
+    if (count == &Counters::noise_evaluations) return partly_shared(count, &PhaseCost::noise_evaluations, correction);
+    if (count == &Counters::steps) return partly_shared(count, &PhaseCost::steps, correction);
+    if (count == &Counters::executed_lanes) return of_lanes(correction);
+    return {[=](const Counters& c) { return static_cast<double>(c.*count); }, {}, most_a_ray(scene, count)};
+}
+
+void extrapolate(const scene::Scene& scene, const PilotRun& run, double estimator_s, int threads,
+                 Prediction& prediction) {
     Costs& costs = prediction.costs;
     const auto rays = static_cast<double>(costs.rays);
-    const auto add = [&](std::optional<double>& cost, std::optional<CountEstimate>& between, const BlockCount& count) {
-        between = cost ? CountEstimate{*cost, *cost, *cost} : estimate_count(run, rays, count);
-        cost = between->value;
-    };
-    const double correction = run.shared_correction;
-    CountsBetween& between = prediction.between;
-    add(costs.shadow_rays, between.shadow_rays, of_each_ray(&Counters::shadow_rays));
-    add(costs.hits, between.hits, of_each_ray(&Counters::hits));
-    add(costs.noise_evaluations, between.noise_evaluations,
-        partly_shared(&Counters::noise_evaluations, &integrate::PhaseCost::noise_evaluations, correction));
-    add(costs.steps, between.steps, partly_shared(&Counters::steps, &integrate::PhaseCost::steps, correction));
-    add(costs.executed_lanes, between.executed_lanes, of_lanes(correction));
+    for (const auto& [name, count] : integrate::kCounters) {
+        std::optional<double>& cost = costs.counts[count];
+        const CountEstimate between = cost
+                                          ? CountEstimate{*cost, *cost, *cost}
+                                          : estimate_count(run, rays, block_count(scene, count, run.shared_correction));
+        prediction.between[count] = between;
+        cost = between.value;
+    }
+    // Small pictures of composed reliefs idle in up to half of a pilot's lanes; what is sure is that each evaluation
+    // takes a lane.
+    std::optional<CountEstimate>& lanes = prediction.between[&integrate::Counters::executed_lanes];
+    const std::optional<CountEstimate>& evaluations = prediction.between[&integrate::Counters::noise_evaluations];
+    if (lanes && evaluations && lanes->low < lanes->high) lanes->low = std::min(lanes->low, evaluations->low);
     costs.cpu_seconds = rays / static_cast<double>(run.counters.rays) * run.cpu_seconds + estimator_s * rays;
     costs.seconds = *costs.cpu_seconds / threads;
 }
@@ -180,7 +197,7 @@ Prediction predict(const scene::Scene& scene, const film::Rect& window, const Pr
         const PilotRun run =
             run_pilot(*image, sampling, owners_of(window, estimator), pilot_rays(costs.rays, settings.tracer));
         prediction.pilot = Pilot{run.counters.rays, run.cpu_seconds};
-        extrapolate(run, estimator_seconds_a_ray(sampling), prediction.threads, prediction);
+        extrapolate(scene, run, estimator_seconds_a_ray(sampling), prediction.threads, prediction);
     }
     return prediction;
 }

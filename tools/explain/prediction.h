@@ -1,8 +1,10 @@
 // What a render will cost, from a pilot of a few of its rays; and what one did cost, as `strata render --stats` told.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
-#include <filesystem>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,10 +17,33 @@
 
 namespace strata::tools::explain {
 
+using Count = std::uint64_t integrate::Counters::*;
+
+// Of all counts but the rays, which are known exactly, and those that nobody plans for.
+constexpr bool is_predicted(Count count) {
+    return count != &integrate::Counters::rays && count != &integrate::Counters::unresolved_rays;
+}
+
+// A value for each row of integrate::kCounters.
+template <class Value>
+class OfCounts {
+  public:
+    Value& operator[](Count count) { return values_[index_of(count)]; }
+    const Value& operator[](Count count) const { return values_[index_of(count)]; }
+
+  private:
+    static std::size_t index_of(Count count) {
+        const auto found = std::ranges::find(integrate::kCounters, count, &integrate::CounterRow::member);
+        return static_cast<std::size_t>(found - std::begin(integrate::kCounters));
+    }
+
+    std::array<Value, std::size(integrate::kCounters)> values_{};
+};
+
 // Nothing where it is not known. Predicted counts are rounded expectations; rays are exact.
 struct Costs {
     std::uint64_t rays = 0;
-    std::optional<double> shadow_rays, hits, noise_evaluations, steps, executed_lanes;
+    OfCounts<std::optional<double>> counts;
     std::optional<double> cpu_seconds, seconds;
     std::optional<double> peak_memory_bytes;
 };
@@ -29,9 +54,7 @@ struct Pilot {
 };
 
 // Where counts lie, from a pilot; a point where they are known.
-struct CountsBetween {
-    std::optional<CountEstimate> shadow_rays, hits, noise_evaluations, steps, executed_lanes;
-};
+using CountsBetween = OfCounts<std::optional<CountEstimate>>;
 
 struct Prediction {
     Costs costs;

@@ -74,11 +74,7 @@ Recorded read_recorded(const std::filesystem::path& path, const std::string& mar
     recorded.simd_target = reader.text("simd_target");
     recorded.costs.rays = rays;
     const auto share = [&](const char* key) { return reader.number(key) / passes; };
-    recorded.costs.shadow_rays = share("shadow_rays");
-    recorded.costs.hits = share("hits");
-    recorded.costs.noise_evaluations = share("noise_evaluations");
-    recorded.costs.steps = share("steps");
-    recorded.costs.executed_lanes = share("executed_lanes");
+    for (const auto& [name, count] : integrate::kCounters) recorded.costs.counts[count] = share(name);
     recorded.costs.seconds = share("seconds");
     recorded.costs.cpu_seconds = share("cpu_seconds");
     recorded.costs.peak_memory_bytes = reader.number("peak_memory_bytes");

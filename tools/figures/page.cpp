@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 
@@ -10,6 +9,7 @@
 #include "tools/figures/figure.h"
 #include "tools/figures/figure_maker.h"
 #include "tools/figures/films.h"
+#include "tools/report/page.h"
 
 namespace strata::tools::figures {
 
@@ -17,27 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-// Replaces each {{name}} of the template once; what is put in is not looked at again.
-std::string filled(std::string_view text, const std::vector<std::pair<std::string_view, std::string>>& values) {
-    std::string result;
-    for (;;) {
-        const std::size_t begin = text.find("{{"), end = text.find("}}");
-        if (begin == std::string_view::npos || end == std::string_view::npos) return result.append(text);
-        const std::string_view name = text.substr(begin + 2, end - begin - 2);
-        const auto found = std::ranges::find(values, name, &std::pair<std::string_view, std::string>::first);
-        if (found == values.end()) throw std::logic_error(fmt::format("the page names {}", name));
-        result.append(text.substr(0, begin)).append(found->second);
-        text.remove_prefix(end + 2);
-    }
-}
-
-// JSON as it may stand in a script element: no text of it ends that.
-std::string embedded(const ordered_json& json) {
-    std::string text;
-    for (const char c : json.dump()) text += c == '<' ? std::string("\\u003c") : std::string(1, c);
-    return text;
-}
 
 // Of the records that are there and not emptied (record.h).
 std::vector<ordered_json> records_of(const std::vector<fs::path>& paths) {
@@ -56,11 +35,11 @@ std::vector<ordered_json> records_of(const std::vector<fs::path>& paths) {
 }  // namespace
 
 std::string page_of(const std::vector<ordered_json>& figures, const std::vector<ordered_json>& films) {
-    const PageTexts& texts = page_texts();
-    return filled(texts.html, {{"style", std::string(texts.css)},
-                               {"version", STRATA_VERSION},
-                               {"records", embedded({{"figures", figures}, {"films", films}})},
-                               {"script", std::string(texts.js)}});
+    const report::PageTexts& texts = report::page_texts();
+    return report::filled(texts.figures, {{"style", std::string(texts.style)},
+                                          {"version", STRATA_VERSION},
+                                          {"records", report::embedded({{"figures", figures}, {"films", films}})},
+                                          {"script", std::string(texts.figures_script)}});
 }
 
 void write_page(const fs::path& folder) {

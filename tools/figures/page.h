@@ -4,16 +4,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace strata::tools::figures {
-
-// What the page is made of, as embedded when the program was built.
-struct PageTexts {
-    std::string_view html, css, js;
-};
-const PageTexts& page_texts();
 
 // The page of these figures (record_of) and films (film_record), in their order: style, script and the records within,
 // from which the script builds what is seen; pictures and films referred to by name, nothing from elsewhere.

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/estimate/estimator.h"
@@ -14,9 +15,10 @@
 
 namespace strata::tools::job {
 
-// "steps,evals" and the like; "all" those that such an estimator has. Throws UsageError for another word and for what
-// the estimator does not have.
-integrate::ChannelSet parse_aovs(const std::string& text, const estimate::EstimatorSettings& estimator);
+// "steps,evals" and the like; "all" those that such an estimator and ground of such layers have. Throws UsageError for
+// another word and for what estimator or ground do not have.
+integrate::ChannelSet parse_aovs(const std::string& text, const estimate::EstimatorSettings& estimator,
+                                 std::vector<std::string> grounds = {});
 
 // Those of --aov, empty if not given, else those that the picture recorded. Throws UsageError, for several passes too.
 integrate::ChannelSet aovs_of(const std::string& typed, const cli::LoadedScene& loaded, int passes);
@@ -30,6 +32,10 @@ std::string aov_table();
 
 // Channels of an EXR, in the order of a pixel's values.
 std::vector<std::string> aov_channels(const integrate::ChannelSet& aovs, const std::string& prefix = "");
+
+// What an EXR says in its header for programs that read these channels, beside Strata's own.
+std::vector<std::pair<std::string, std::string>> aov_header(const integrate::ChannelSet& aovs,
+                                                            const std::string& prefix = "");
 
 // What an EXR says of a channel: "nearest: ...".
 std::string description_of(const integrate::Channel& channel);

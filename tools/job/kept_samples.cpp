@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "src/film/tiles.h"
 #include "src/image/samples.h"
@@ -11,31 +10,17 @@
 namespace strata::tools::job {
 namespace {
 
-template <class T>
-journal::PixelPart part_of(const journal::SampleLayout& layout, const std::vector<T>& values) {
-    journal::PixelPart part{layout, std::vector<unsigned char>(values.size() * sizeof(T))};
-    if (!values.empty()) std::memcpy(part.samples.data(), values.data(), part.samples.size());
-    return part;
-}
-
-// `count` floats a pixel of a film's array.
-std::vector<float> gather(std::span<const float> values, std::size_t count, const film::Film& film,
-                          std::span<const film::Rect> rects) {
-    std::vector<float> gathered;
-    journal::for_each_row(film.window(), rects, [&](std::size_t in_film, std::size_t, std::size_t pixels) {
-        const auto row = values.subspan(in_film * count, pixels * count);
-        gathered.insert(gathered.end(), row.begin(), row.end());
-    });
-    return gathered;
-}
-
 std::span<const float> colour_of(const film::Film& film) { return {&film.pixels()[0].x, 3 * film.pixels().size()}; }
+
+std::vector<float> colour_of(const film::Film& film, std::span<const film::Rect> rects) {
+    return journal::gather(colour_of(film), 3, film.window(), rects);
+}
 
 std::vector<std::uint8_t> dithered(const film::Film& film, std::span<const film::Rect> rects,
                                    const image::ColourOut& colour) {
     std::vector<std::uint8_t> codes;
     for (const film::Rect& rect : rects) {
-        const std::vector<float> linear = gather(colour_of(film), 3, film, {&rect, 1});
+        const std::vector<float> linear = colour_of(film, {&rect, 1});
         const auto part = image::codes_of_8_bits(linear, colour, rect.x0, rect.y0, rect.width());
         codes.insert(codes.end(), part.begin(), part.end());
     }
@@ -102,15 +87,15 @@ journal::PixelPart samples_of(SampleKind kind, const film::Film& film, std::span
         case SampleKind::codes_8:
             return part_of(layout, dithered(film, rects, colour));
         case SampleKind::codes_16:
-            return part_of(layout, image::codes_of_16_bits(gather(colour_of(film), 3, film, rects), colour));
+            return part_of(layout, image::codes_of_16_bits(colour_of(film, rects), colour));
         case SampleKind::halves:
-            return part_of(layout, image::halves(gather(colour_of(film), 3, film, rects)));
+            return part_of(layout, image::halves(colour_of(film, rects)));
         case SampleKind::floats:
-            return part_of(layout, gather(colour_of(film), 3, film, rects));
+            return part_of(layout, colour_of(film, rects));
         case SampleKind::channels:
             break;
     }
-    return part_of(layout, gather(channels_of(film), values, film, rects));
+    return part_of(layout, journal::gather(channels_of(film), values, film.window(), rects));
 }
 
 std::vector<film::Rect> keepable(const film::Film& film, std::span<const film::Rect> rects) {

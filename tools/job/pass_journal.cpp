@@ -15,17 +15,11 @@ namespace {
 using journal::PixelPart;
 using journal::SampleLayout;
 
-// Gathers what a film or a sum has of some pixels.
+// What a film or a sum has of some pixels.
 template <class T>
 PixelPart gather(std::span<const T> values, const SampleLayout& layout, const film::Rect& window,
                  std::span<const film::Rect> rects) {
-    static_assert(std::is_standard_layout_v<T>);  // vectors are arrays of their components
-    PixelPart part{layout, {}};
-    journal::for_each_row(window, rects, [&](std::size_t first, std::size_t, std::size_t pixels) {
-        const auto* bytes = reinterpret_cast<const unsigned char*>(values.data() + first);
-        part.samples.insert(part.samples.end(), bytes, bytes + pixels * sizeof(T));
-    });
-    return part;
+    return journal::part_of(layout, journal::gather(values, 1, window, rects));
 }
 
 template <class T>
@@ -104,46 +98,27 @@ void check_parts(const std::vector<PixelPart>& parts, std::initializer_list<Samp
 PassJournal::PassJournal(WorkJournal& journal, const film::Rect& window)
     : journal_(journal), layout_{window, image::kStripRows}, kept_(layout_) {}
 
-void PassJournal::find_kept(journal::KeptPixels& kept, int pass) const {
-    for (const journal::RecordPlace& place : journal_.file().places()) {
-        if (place.type != type_of(JournalRecord::pixels)) continue;
-        const auto start = journal_.file().read_start(place, journal::kPixelHeadStart);
-        const auto bytes = journal_.file().read_start(place, journal::pixel_head_bytes(start));
-        journal::PayloadReader reader(bytes);
-        const journal::PixelHead head = journal::read_pixel_head(reader);
-        if (head.film == static_cast<std::uint32_t>(pass)) kept.add(place, head.rects);
-    }
-}
-
 void PassJournal::restore_strip(const journal::KeptPixels& kept, film::Film& strip) const {
     for (const journal::RecordPlace& place : kept.records_of(layout_.strip_at(strip.window().y0))) {
-        const std::vector<unsigned char> payload = journal_.file().read(place);
-        journal::PayloadReader reader(payload);
-        const journal::PixelHead head = journal::read_pixel_head(reader);
-        const std::vector<PixelPart> parts = journal::read_pixel_parts(reader, head);
+        const auto [head, parts] = journal::read_pixel_record(journal_.file().read(place));
         const bool has_weights = !strip.weights().empty();
         has_weights ? check_parts(parts, {kColour, kWeight}) : check_parts(parts, {kColour});
         const auto* colour = reinterpret_cast<const float*>(parts[0].samples.data());
-        std::size_t i = 0;
-        for (const film::Rect& rect : head.rects) {
-            for (int y = rect.y0; y < rect.y1; ++y) {
-                for (int x = rect.x0; x < rect.x1; ++x, ++i) {
-                    const film::Rect& w = strip.window();
-                    if (y < w.y0 || y >= w.y1) continue;  // of another strip
-                    strip.finish(x, y, {colour[3 * i], colour[3 * i + 1], colour[3 * i + 2]});
-                    if (!has_weights) continue;
-                    double weight;
-                    std::memcpy(&weight, parts[1].samples.data() + i * sizeof weight, sizeof weight);
-                    strip.set_weight(x, y, weight);
-                }
-            }
-        }
+        const unsigned char* weights = has_weights ? parts[1].samples.data() : nullptr;
+        journal::for_each_pixel(head.rects, [&](int x, int y, std::size_t i) {
+            if (y < strip.window().y0 || y >= strip.window().y1) return;  // of another strip
+            strip.finish(x, y, {colour[3 * i], colour[3 * i + 1], colour[3 * i + 2]});
+            if (weights == nullptr) return;
+            double weight;
+            std::memcpy(&weight, weights + i * sizeof weight, sizeof weight);
+            strip.set_weight(x, y, weight);
+        });
     }
 }
 
 bool PassJournal::restore_last(film::Film& film) const {
     journal::KeptPixels kept(layout_);
-    find_kept(kept, kept_passes_ - 1);
+    journal_.find_pixels(kept_passes_ - 1, kept);
     for (int i = 0; i < layout_.count(); ++i) {
         film::Film strip(layout_.strip(i), {.weights = !film.weights().empty()});
         restore_strip(kept, strip);
@@ -169,10 +144,7 @@ std::optional<strata::render::PassesSoFar> PassJournal::restore_sums(const film:
             if (numbers->is_weighted != 0 && numbers->pairs > 0) moments.resize(pixels);
         }
         if (place.type != type_of(JournalRecord::sums) || !numbers) continue;
-        const std::vector<unsigned char> payload = journal_.file().read(place);
-        journal::PayloadReader reader(payload);
-        const journal::PixelHead head = journal::read_pixel_head(reader);
-        const std::vector<PixelPart> parts = journal::read_pixel_parts(reader, head);
+        const auto [head, parts] = journal::read_pixel_record(journal_.file().read(place));
         if (!moments.empty())
             check_parts(parts, {kSums, kWeight, kMoments});
         else if (!weights.empty())
@@ -219,7 +191,7 @@ std::optional<strata::render::PassesSoFar> PassJournal::restore(const film::Rect
     }
     so_far->seconds = journal_.earlier_seconds();
     written_passes_ = kept_passes_;
-    find_kept(kept_, kept_passes_);
+    journal_.find_pixels(kept_passes_, kept_);
     return so_far;
 }
 

@@ -34,7 +34,6 @@ class PassJournal final : public strata::render::PassKeeper {
 
   private:
     std::optional<strata::render::PassesSoFar> restore_sums(const film::FilmExtras& extras) const;
-    void find_kept(journal::KeptPixels& kept, int pass) const;
     void restore_strip(const journal::KeptPixels& kept, film::Film& strip) const;
     bool restore_last(film::Film& film) const;
 

@@ -14,17 +14,7 @@ namespace strata::tools::job {
 StillJournal::StillJournal(WorkJournal& journal, const film::StripLayout& layout, std::vector<SampleKind> kinds,
                            const image::ColourOut& colour)
     : journal_(journal), kept_(layout), kinds_(std::move(kinds)), colour_(colour), codes_(kinds_.size()) {
-    if (journal_.is_resumed()) find_kept();
-}
-
-void StillJournal::find_kept() {
-    for (const journal::RecordPlace& place : journal_.file().places()) {
-        if (place.type != static_cast<std::uint32_t>(JournalRecord::pixels)) continue;
-        const auto start = journal_.file().read_start(place, journal::kPixelHeadStart);
-        const auto bytes = journal_.file().read_start(place, journal::pixel_head_bytes(start));
-        journal::PayloadReader reader(bytes);
-        kept_.add(place, journal::read_pixel_head(reader).rects);
-    }
+    if (journal_.is_resumed()) journal_.find_pixels(0, kept_);
 }
 
 std::optional<std::size_t> StillJournal::part_of(SampleKind kind) const {
@@ -40,10 +30,7 @@ void StillJournal::leaving(film::Film& strip, std::span<const film::Rect> fresh)
     restored_.clear();
     for (auto& codes : codes_) codes.clear();
     for (const journal::RecordPlace& place : kept_.records_of(kept_.layout().strip_at(window_.y0))) {
-        const std::vector<unsigned char> payload = journal_.file().read(place);
-        journal::PayloadReader reader(payload);
-        Restored record{journal::read_pixel_head(reader), {}};
-        record.parts = journal::read_pixel_parts(reader, record.head);
+        journal::PixelRecord record = journal::read_pixel_record(journal_.file().read(place));
         if (!has_all_parts(record.parts)) throw journal::JournalError("a record of the journal holds other samples");
         restore(strip, record);
         restored_.push_back(std::move(record));
@@ -58,7 +45,7 @@ bool StillJournal::has_all_parts(const std::vector<journal::PixelPart>& parts) c
     return true;
 }
 
-void StillJournal::restore(film::Film& strip, const Restored& record) const {
+void StillJournal::restore(film::Film& strip, const journal::PixelRecord& record) const {
     std::vector<float> colour(3 * record.head.pixels(), 0.0f), channels;
     if (const auto part = part_of(SampleKind::floats)) {
         std::memcpy(colour.data(), record.parts[*part].samples.data(), colour.size() * sizeof(float));
@@ -71,15 +58,10 @@ void StillJournal::restore(film::Film& strip, const Restored& record) const {
         channels.resize(channel_values_ * record.head.pixels());
         std::memcpy(channels.data(), record.parts[*part].samples.data(), channels.size() * sizeof(float));
     }
-    std::size_t i = 0;
-    for (const film::Rect& rect : record.head.rects) {
-        for (int y = rect.y0; y < rect.y1; ++y) {
-            for (int x = rect.x0; x < rect.x1; ++x, ++i) {
-                strip.finish(x, y, {colour[3 * i], colour[3 * i + 1], colour[3 * i + 2]});
-                if (!channels.empty()) set_channels(strip, x, y, &channels[i * channel_values_]);
-            }
-        }
-    }
+    journal::for_each_pixel(record.head.rects, [&](int x, int y, std::size_t i) {
+        strip.finish(x, y, {colour[3 * i], colour[3 * i + 1], colour[3 * i + 2]});
+        if (!channels.empty()) set_channels(strip, x, y, &channels[i * channel_values_]);
+    });
 }
 
 image::CodesHook StillJournal::codes_hook(image::Format format) {
@@ -99,7 +81,7 @@ image::CodesHook StillJournal::codes_hook(image::Format format) {
 
 void StillJournal::overlay(SampleKind kind, std::span<unsigned char> codes) const {
     const std::size_t part = *part_of(kind), pixel = layout_of(kind, 0).pixel_bytes();
-    for (const Restored& record : restored_) {
+    for (const journal::PixelRecord& record : restored_) {
         const unsigned char* samples = record.parts[part].samples.data();
         const auto copy = [&](std::size_t in_film, std::size_t in_record, std::size_t pixels) {
             std::copy_n(samples + in_record * pixel, pixels * pixel,

@@ -39,14 +39,8 @@ class StillJournal final : public film::RowKeeper {
     std::int64_t kept_pixels() const { return kept_.pixels(); }
 
   private:
-    struct Restored {
-        journal::PixelHead head;
-        std::vector<journal::PixelPart> parts;
-    };
-
-    void find_kept();
     bool has_all_parts(const std::vector<journal::PixelPart>& parts) const;
-    void restore(film::Film& strip, const Restored& record) const;
+    void restore(film::Film& strip, const journal::PixelRecord& record) const;
     std::optional<std::size_t> part_of(SampleKind kind) const;
     void overlay(SampleKind kind, std::span<unsigned char> codes) const;
     void append(const film::Film& film, std::span<const film::Rect> rects, bool use_codes);
@@ -60,7 +54,7 @@ class StillJournal final : public film::RowKeeper {
     // Of the strip that is leaving.
     film::Rect window_;
     std::vector<film::Rect> fresh_;
-    std::vector<Restored> restored_;
+    std::vector<journal::PixelRecord> restored_;
     std::vector<std::vector<unsigned char>> codes_;  // by kind: what the encoders made of the fresh rectangles
 };
 

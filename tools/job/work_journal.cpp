@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/journal/journal_error.h"
+#include "src/journal/pixel_record.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/standard_output.h"
 
@@ -80,6 +81,17 @@ void WorkJournal::read_records() {
         earlier_s_ = journal::PayloadReader(payload).take<double>();
     }
     remove_hidden_files();
+}
+
+void WorkJournal::find_pixels(int film, journal::KeptPixels& kept) const {
+    for (const journal::RecordPlace& place : file_->places()) {
+        if (place.type != number_of(JournalRecord::pixels)) continue;
+        const auto start = file_->read_start(place, journal::kPixelHeadStart);
+        const auto bytes = file_->read_start(place, journal::pixel_head_bytes(start));
+        journal::PayloadReader reader(bytes);
+        const journal::PixelHead head = journal::read_pixel_head(reader);
+        if (head.film == static_cast<std::uint32_t>(film)) kept.add(place, head.rects);
+    }
 }
 
 // Whoever made them is dead, since the journal is ours. Nothing but what a render calls its hidden files is touched.

@@ -10,6 +10,7 @@
 
 #include "src/journal/file.h"
 #include "src/journal/identity.h"
+#include "src/journal/kept_pixels.h"
 #include "src/journal/payload.h"
 
 namespace strata::tools::job {
@@ -44,6 +45,9 @@ class WorkJournal {
     bool is_resumed() const { return resumed_; }
     const journal::File& file() const { return *file_; }
     double earlier_seconds() const { return earlier_s_; }
+
+    // Adds the records of finished pixels of the film of this number (PixelHead::film) to `kept`.
+    void find_pixels(int film, journal::KeptPixels& kept) const;
 
     // Names of hidden files that this process makes, to be removed by whoever goes on from this journal if this process
     // cannot.

@@ -13,6 +13,7 @@
 #include "src/image/row_reader.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/scene_argument.h"
+#include "tools/job/aov.h"
 
 namespace strata::tools::merge {
 
@@ -87,6 +88,7 @@ image::WriteOptions write_options(const Parts& parts, const cli::LoadedScene& lo
                 parts.metadata.find("strata:format") == "float" ? image::ExrFormat::floating : image::ExrFormat::half,
             .exr_layout = loaded.is_tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic,
             .exr_extra = extra,
+            .exr_attributes = job::aov_header(job::aovs_of("", loaded, 1), loaded.layer_prefix.value_or("")),
             .frames_per_second = image::frame_rate(loaded.scene),
             .warn = warn};
 }

@@ -136,9 +136,6 @@ void add_journal_options(cli::Command& command, job::JournalOptions& options) {
 }
 
 void add_pass_options(cli::Command& command, RenderRequest& request) {
-    command.add_option("--passes", request.passes, 1, strata::render::kMostPasses, "K",
-                       "Average so many passes of N*N samples, each with its own sample positions; beside "
-                       "--target-rmse or --time-limit at most so many; default 1");
     command.add_option(
         "--target-rmse", [&request](const std::string& text) { request.target_rmse = parse_target(text); }, "E",
         "Add passes, four at least, until the sampling error of linear radiance, told from the passes themselves, is "
@@ -151,6 +148,26 @@ void add_pass_options(cli::Command& command, RenderRequest& request) {
 
 }  // namespace
 
+void add_picture_options(cli::Command& command, RenderRequest& request) {
+    cli::add_crop(command, request.crop);
+    cli::add_tracer(command, request.tracer);
+    cli::add_simd(command, &request.is_simd_pinned);
+    command.add_option("--format", request.format, "NAME",
+                       "EXR channels: half (up to 65504) or float; default half. Or what goes to standard output or a "
+                       "pipe: exr (the default), png, tif or jpg");
+    command.add_flag("--tiled", request.tiled,
+                     "EXR in tiles of 64x64, as from 4096 pixels on either side without being asked");
+    command.add_option("--aov", request.aov, "all|NAME,...",
+                       "Also keep other channels than colour, each with a filter of its own: those named at the end, "
+                       "or all that the estimator has; in EXRs, as 32-bit channels. Of steps and evals false-colour "
+                       "pictures NAME.steps.png and NAME.evals.png are drawn as well");
+    command.add_option("--layer-prefix", request.layer_prefix, "PREFIX",
+                       "In front of their names, as Blender has the view layer's: PREFIX.N.X; default none");
+    command.add_option("--passes", request.passes, 1, strata::render::kMostPasses, "K",
+                       "Average so many passes of N*N samples, each with its own sample positions; beside "
+                       "--target-rmse or --time-limit at most so many; default 1");
+}
+
 void add_command(cli::Command& program) {
     cli::Command* command = program.add_subcommand("render", "Render a scene to pictures");
     auto request = std::make_shared<RenderRequest>();
@@ -160,26 +177,13 @@ void add_command(cli::Command& program) {
                      "A picture to write, by extension .exr, .png, .tif or .jpg (may be repeated); - for standard "
                      "output; default SCENE.exr and SCENE.png in the current folder")
         ->repeated();
-    cli::add_crop(*command, request->crop);
     cli::add_threads(*command, request->threads);
     command->add_option("--tile", request->tile, 1, kLargestTile, "n",
                         "Side of a tile in pixels, 1 to 1024; the picture does not depend on it");
-    cli::add_tracer(*command, request->tracer);
-    cli::add_simd(*command, &request->is_simd_pinned);
-    command->add_option("--format", request->format, "NAME",
-                        "EXR channels: half (up to 65504) or float; default half. Or what goes to standard output or a "
-                        "pipe: exr (the default), png, tif or jpg");
-    command->add_flag("--tiled", request->tiled,
-                      "EXR in tiles of 64x64, as from 4096 pixels on either side without being asked");
-    command->add_option("--aov", request->aov, "all|NAME,...",
-                        "Also keep other channels than colour, each with a filter of its own: those named at the end, "
-                        "or all that the estimator has; in EXRs, as 32-bit channels. Of steps and evals false-colour "
-                        "pictures NAME.steps.png and NAME.evals.png are drawn as well");
+    add_picture_options(*command, *request);
     command->add_option("--layers", request->layers, "one|separate",
                         "Where other channels go: one EXR with the colour, or separate EXRs NAME.LAYER.exr; default "
                         "one");
-    command->add_option("--layer-prefix", request->layer_prefix, "PREFIX",
-                        "In front of their names, as Blender has the view layer's: PREFIX.N.X; default none");
     command->add_option("--stats", request->statistics, "FILE.json", "Write counts and times as JSON");
     add_pass_options(*command, *request);
     command->add_option("--shard", request->shard, "i/n",
@@ -196,8 +200,7 @@ void add_command(cli::Command& program) {
         "interrupted;\nmessages go to standard error then. `-o png:-` is `-o - --format png`. SCENE - is read from "
         "standard input.\n"
         "A picture given as SCENE is rendered again as its metadata say, --crop, --aov, --layers, --format, --tiled, "
-        "--tracer, "
-        "--simd and --passes included; at another --size a crop shows the same part of the frame.\n"
+        "--tracer, --simd and --passes included; at another --size a crop shows the same part of the frame.\n"
         "The picture of K passes is the same whatever stopped it at K: its metadata hold K, and --passes K makes it "
         "again.\nThe sampling error that is told is that of this picture, before it is rounded for a file, against "
         "infinitely many passes of the same N and tolerance; the bias of jittered and shared, which falls with the "

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "noise/simd_target.h"
 #include "src/image/file_paths.h"
@@ -14,7 +15,6 @@
 #include "src/image/stream_target.h"
 #include "src/image/text.h"
 #include "src/parallel/processors.h"
-#include "src/scene/enum_names.h"
 #include "src/scene/key_text.h"
 #include "tools/cli/errors.h"
 #include "tools/cli/planned_files.h"
@@ -64,42 +64,28 @@ void choose_simd_target(const RenderRequest& request, const cli::LoadedScene& lo
                     loaded.source, *loaded.simd_target, noise::simd_target()));
 }
 
-// One pass is not held whole.
-void check_memory(const film::Rect& window, const strata::render::PassGoal& goal, const scene::Scene& scene) {
-    if (goal.passes == 1) return;
-    const estimate::Estimator estimator(estimate::estimator_settings(scene));
-    const double needed = 1.0 * strata::render::bytes_a_pixel_of_passes(estimator) * window.width() * window.height();
-    const double present = static_cast<double>(parallel::available_memory_bytes());
-    if (needed <= present) return;
-    throw cli::UsageError(
-        fmt::format("{}x{} pixels in passes need {:.1f} GB of memory, there are {:.1f} GB (of this machine, or of its "
-                    "container); allowed: one pass, a smaller --size, or the frame in parts by --crop",
-                    window.width(), window.height(), needed / 1e9, present / 1e9));
-}
+constexpr strata::render::PassWords kPassWords{"--passes", "--target-rmse", "--time-limit",
+                                               "a smaller --size, or the frame in parts by --crop"};
 
 strata::render::PassGoal choose_goal(const RenderRequest& request, const cli::LoadedScene& loaded) {
     const scene::EstimatorKind estimator = loaded.scene.sampling.estimator;
-    strata::render::PassGoal goal;
-    goal.target_rmse = request.target_rmse;
-    goal.time_limit_s = request.time_limit_s;
-    const bool open_ended = goal.target_rmse > 0 || goal.time_limit_s > 0;
-    if (open_ended) goal.passes = strata::render::kMostPasses;
-    if (request.passes) goal.passes = *request.passes;
-    if (goal.passes > 1 && !strata::render::passes_differ(estimator)) {
-        throw cli::UsageError(
-            fmt::format("{}: passes of the estimator '{}' are all alike, their mean is no better than one; allowed "
-                        "with passes: jittered, stratified, random, sobol, shared, shared-sobol",
-                        request.target_rmse > 0 ? "--target-rmse"
-                        : open_ended            ? "--time-limit"
-                                                : "--passes",
-                        scene::name_of(estimator)));
-    }
+    strata::render::PassRequest asked{request.passes, request.target_rmse, request.time_limit_s};
     // A picture rendered again with another estimator may have lost its use for passes.
-    if (!request.passes && !open_ended && loaded.passes && strata::render::passes_differ(estimator)) {
-        goal.passes =
+    if (!asked.passes && !asked.is_open_ended() && loaded.passes && strata::render::passes_differ(estimator)) {
+        asked.passes =
             cli::parse_integer((loaded.source + ": its strata:passes"), *loaded.passes, 1, strata::render::kMostPasses);
     }
-    return goal;
+    return strata::render::goal_of(asked, estimator, kPassWords);
+}
+
+// What the renderer refuses is a command line that cannot be used.
+template <class Action>
+auto as_usage(const Action& action) {
+    try {
+        return action();
+    } catch (const std::invalid_argument& error) {
+        throw cli::UsageError(error.what());
+    }
 }
 
 void check_output(const fs::path& path, const Job& job) {
@@ -273,10 +259,13 @@ Job prepare(const RenderRequest& request) {
                  .exr_layout = is_tiled ? image::ExrLayout::tiles : image::ExrLayout::automatic,
                  .frames_per_second = image::frame_rate(job.loaded.scene)};
     if (!request.quiet) job.write.warn = job::warn_of_clipping;
-    job.goal = choose_goal(request, job.loaded);
+    job.goal = as_usage([&] { return choose_goal(request, job.loaded); });
     choose_shard(request, job);
     choose_aovs(request, job);
-    check_memory(job.rendered_window(), job.goal, job.loaded.scene);
+    as_usage([&] {
+        strata::render::check_memory(job.goal, estimate::estimator_settings(job.loaded.scene), job.rendered_window(),
+                                     parallel::available_memory_bytes(), kPassWords);
+    });
     job.outputs = output_paths(request, job);
     check_shard_outputs(job);
     choose_layer_files(job);

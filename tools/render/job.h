@@ -31,6 +31,10 @@ struct RenderRequest {
     bool is_simd_pinned = false, quiet = false, tiled = false;
 };
 
+// Those of the options that say what the pixels of one picture are and how an EXR keeps them, for all commands that
+// have it rendered.
+void add_picture_options(cli::Command& command, RenderRequest& request);
+
 // All that is known before the first ray.
 struct Job {
     cli::LoadedScene loaded;

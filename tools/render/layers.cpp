@@ -29,6 +29,14 @@ void check_layer_prefix(const std::string& prefix) {
     throw cli::UsageError(fmt::format("--layer-prefix {}: allowed: letters, digits, _ and -", scene::excerpt(prefix)));
 }
 
+// A file of three channels does not hold what any number of layers cover.
+void refuse_grounds(const integrate::ChannelSet& aovs) {
+    for (const integrate::ChannelSet::Entry& aov : aovs.entries()) {
+        if (!integrate::is_of_ground(aov.channel->type)) continue;
+        throw cli::UsageError(fmt::format("--aov {}: allowed with --layers one", aov.channel->name));
+    }
+}
+
 }  // namespace
 
 std::vector<const integrate::Channel*> drawn_aovs(const Job& job) {
@@ -48,7 +56,9 @@ void choose_aovs(const RenderRequest& request, Job& job) {
         throw cli::UsageError(fmt::format("--layers {}: allowed: one, separate", scene::excerpt(job.layers)));
     }
     if (!drawn_aovs(job).empty()) image::check_fonts();
-    if (job.layers == "one") job.write.exr_extra = job::aov_channels(job.aovs, job.layer_prefix);
+    if (job.layers != "one") return refuse_grounds(job.aovs);
+    job.write.exr_extra = job::aov_channels(job.aovs, job.layer_prefix);
+    job.write.exr_attributes = job::aov_header(job.aovs, job.layer_prefix);
 }
 
 // What is not drawn goes into an EXR.

@@ -167,9 +167,10 @@ RunStatistics collect(const strata::render::RenderResult& result, const std::str
 std::string summary(const RunStatistics& statistics) {
     const integrate::Counters& c = statistics.counters;
     const double rays = static_cast<double>(c.rays), shadow_rays = static_cast<double>(c.shadow_rays);
-    const double sky_rays = static_cast<double>(c.sky_rays), all_rays = rays + shadow_rays + sky_rays;
-    const std::string with_sky =
-        sky_rays > 0.0 ? fmt::format(", {} sky rays", report::scaled(sky_rays)) : std::string();
+    const double sky_rays = static_cast<double>(c.sky_rays), water_rays = static_cast<double>(c.water_rays);
+    const double all_rays = rays + shadow_rays + sky_rays + water_rays;
+    std::string with_sky = sky_rays > 0.0 ? fmt::format(", {} sky rays", report::scaled(sky_rays)) : std::string();
+    if (water_rays > 0.0) with_sky += fmt::format(", {} from water", report::scaled(water_rays));
     std::string text = fmt::format("time     {} ({:.2f} s on {} thread{}, {:.2f} s of CPU, {})\n",
                                    cli::duration_text(statistics.seconds), statistics.seconds, statistics.threads,
                                    statistics.threads == 1 ? "" : "s", statistics.cpu_seconds, statistics.simd_target);
@@ -188,23 +189,15 @@ std::string summary(const RunStatistics& statistics) {
 }
 
 std::string statistics_json(const RunStatistics& statistics) {
-    const integrate::Counters& c = statistics.counters;
     report::Json json = {{"scene", statistics.scene},
                          {"version", STRATA_VERSION},
                          {"simd_target", statistics.simd_target},
-                         {"threads", statistics.threads},
-                         {"rays", c.rays},
-                         {"shadow_rays", c.shadow_rays},
-                         {"sky_rays", c.sky_rays},
-                         {"hits", c.hits},
-                         {"unresolved_rays", c.unresolved_rays},
-                         {"noise_evaluations", c.noise_evaluations},
-                         {"executed_lanes", c.executed_lanes},
-                         {"steps", c.steps},
-                         {"seconds", statistics.seconds},
-                         {"cpu_seconds", statistics.cpu_seconds},
-                         {"peak_memory_bytes", statistics.peak_memory_bytes},
-                         {"phases", phases_json(statistics)}};
+                         {"threads", statistics.threads}};
+    json.update(report::counts_json(statistics.counters));
+    json.update({{"seconds", statistics.seconds},
+                 {"cpu_seconds", statistics.cpu_seconds},
+                 {"peak_memory_bytes", statistics.peak_memory_bytes},
+                 {"phases", phases_json(statistics)}});
     if (!statistics.settings_mark.empty()) json["settings_mark"] = statistics.settings_mark;
     if (statistics.passes) json.update(passes_json(*statistics.passes));
     return report::text_of(json);

@@ -10,14 +10,17 @@ namespace strata::tools::report {
 
 namespace fs = std::filesystem;
 
-fs::path prepare_folder(const fs::path& folder, std::vector<fs::path> (*files_in)(const fs::path&),
-                        cli::PlannedFiles& files) {
+void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
-    if (!fs::is_directory(folder)) {
-        throw image::ImageError(fmt::format("-o {}: cannot make this folder: {}", folder.string(),
-                                            error ? error.message() : "a file is in its place"));
-    }
+    if (fs::is_directory(folder)) return;
+    throw image::ImageError(fmt::format("-o {}: cannot make this folder: {}", folder.string(),
+                                        error ? error.message() : "a file is in its place"));
+}
+
+fs::path prepare_folder(const fs::path& folder, std::vector<fs::path> (*files_in)(const fs::path&),
+                        cli::PlannedFiles& files) {
+    make_folder(folder);
     for (const fs::path& file : files_in(folder)) files.plan(file);
     check_plotter();
     return folder;

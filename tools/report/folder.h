@@ -10,7 +10,10 @@
 
 namespace strata::tools::report {
 
-// Makes the folder unless it is there, begins the files and finds the plotter. Throws ImageError and ProcessError.
+// Makes the folder unless it is there. Throws ImageError.
+void make_folder(const std::filesystem::path& folder);
+
+// The same, begins the files and finds the plotter. Throws ImageError and ProcessError.
 std::filesystem::path prepare_folder(const std::filesystem::path& folder,
                                      std::vector<std::filesystem::path> (*files_in)(const std::filesystem::path&),
                                      cli::PlannedFiles& files);

@@ -97,5 +97,8 @@ void add_shadow_cases(std::vector<Case>& cases);
 void add_invariance_cases(std::vector<Case>& cases);
 void add_sum_cases(std::vector<Case>& cases);
 void add_motion_cases(std::vector<Case>& cases);
+void add_light_cases(std::vector<Case>& cases);
+void add_water_cases(std::vector<Case>& cases);
+void add_cloud_cases(std::vector<Case>& cases);
 
 }  // namespace strata::tools::stability

@@ -16,6 +16,8 @@ glm::dvec3 surface_point(const trace::Field& field, glm::dvec3 outside, glm::dve
 
 double uniform(Random& random, double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); }
 
+double log_uniform(Random& random, double a, double b) { return std::exp(uniform(random, std::log(a), std::log(b))); }
+
 glm::dvec3 unit_vector(Random& random) {
     std::normal_distribution<double> normal;
     return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));

@@ -9,6 +9,7 @@
 namespace strata::tools::stability {
 
 double uniform(Random& random, double a, double b);
+double log_uniform(Random& random, double a, double b);
 
 glm::dvec3 unit_vector(Random& random);
 

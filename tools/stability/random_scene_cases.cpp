@@ -15,8 +15,6 @@ namespace strata::tools::stability {
 
 namespace {
 
-double log_uniform(Random& random, double a, double b) { return std::exp(uniform(random, std::log(a), std::log(b))); }
-
 // One end or the other of a range, or anywhere between by its logarithm.
 double extreme(Random& random, double low, double high) {
     switch (random() % 4) {

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "tools/report/json.h"
+#include "tools/report/table.h"
 
 namespace strata::tools::stability {
 
@@ -25,14 +27,14 @@ std::string summary(const std::vector<Row>& rows) {
                        static_cast<std::ptrdiff_t>(rows.size()) - checks);
 }
 
-// Inside a cell of a Markdown table.
-std::string cell(const std::string& text) {
-    std::string escaped;
-    for (const char letter : text) {
-        if (letter == '|') escaped += '\\';
-        escaped += letter;
+// Calls tell(group, its rows) for each group, whose rows are side by side.
+template <class Tell>
+void for_each_group(const std::vector<Row>& rows, const Tell& tell) {
+    for (auto first = rows.begin(); first != rows.end();) {
+        const auto last = std::find_if(first, rows.end(), [&](const Row& row) { return row.group != first->group; });
+        tell(first->group, std::span(first, last));
+        first = last;
     }
-    return escaped;
 }
 
 }  // namespace
@@ -42,20 +44,17 @@ std::size_t failures(const std::vector<Row>& rows) {
 }
 
 std::string text_table(const std::vector<Row>& rows) {
-    std::size_t width = 4;
-    for (const Row& row : rows) width = std::max(width, row.name.size());
-    std::string text, group;
-    for (const Row& row : rows) {
-        if (row.group != group) {
-            text += fmt::format("{}{:<{}}  {:>10}  {:>10}  {:<14}\n", text.empty() ? "" : "\n", row.group, width + 6,
-                                "measured", "bound", "unit");
+    std::string text;
+    for_each_group(rows, [&](const std::string& group, std::span<const Row> of_group) {
+        report::Table table({group, ">measured", ">bound", "unit"});
+        for (const Row& row : of_group) {
+            table.add({fmt::format("{}  {}", verdict(row), row.name), fmt::format("{:.3g}", row.measured),
+                       bound_text(row), row.unit},
+                      row.pass() ? "" : fmt::format("      {}\n", row.detail));
         }
-        group = row.group;
-        text += fmt::format("{}  {:<{}}  {:>10}  {:>10}  {:<14}\n", verdict(row), row.name, width,
-                            fmt::format("{:.3g}", row.measured), bound_text(row), row.unit);
-        if (!row.pass()) text += fmt::format("      {}\n", row.detail);
-    }
-    return text + "\n" + summary(rows) + "\n";
+        text += table.text() + "\n";
+    });
+    return text + summary(rows) + "\n";
 }
 
 std::string markdown_table(const std::vector<Row>& rows, const Heading& heading) {
@@ -65,17 +64,14 @@ std::string markdown_table(const std::vector<Row>& rows, const Heading& heading)
         "paper's method, or how often a limit is met.\n",
         heading.fast ? " --fast" : "", heading.seed == 1 ? "" : fmt::format(" --seed {}", heading.seed), STRATA_VERSION,
         heading.simd_targets, summary(rows));
-    std::string group;
-    for (const Row& row : rows) {
-        if (row.group != group) {
-            text += fmt::format(
-                "\n## {}\n\n| case | measured | bound | unit | | worst input |\n|---|---|---|---|---|---|\n",
-                row.group);
+    for_each_group(rows, [&](const std::string& group, std::span<const Row> of_group) {
+        report::Table table({"case", "measured", "bound", "unit", "", "worst input"});
+        for (const Row& row : of_group) {
+            table.add(
+                {row.name, fmt::format("{:.3g}", row.measured), bound_text(row), row.unit, verdict(row), row.detail});
         }
-        group = row.group;
-        text += fmt::format("| {} | {:.3g} | {} | {} | {} | {} |\n", cell(row.name), row.measured, bound_text(row),
-                            cell(row.unit), verdict(row), cell(row.detail));
-    }
+        text += fmt::format("\n## {}\n\n{}", group, table.markdown());
+    });
     return text;
 }
 

@@ -24,7 +24,8 @@ const std::vector<Group>& all_groups() {
                                              {"shadow", {add_shadow_cases}},
                                              {"invariance", {add_invariance_cases}},
                                              {"sums", {add_sum_cases}},
-                                             {"motion", {add_motion_cases}}};
+                                             {"motion", {add_motion_cases}},
+                                             {"light", {add_light_cases, add_water_cases, add_cloud_cases}}};
     return table;
 }
 

@@ -140,7 +140,7 @@ void add_command(cli::Command& program) {
         "a tone curve are refused. Grey is shown as grey, alpha over black, and pixels that are not finite in cyan,\n"
         "with a warning.\n"
         "  strata strip a.exr b.exr --crop 100,60,140,90 --zoom 8 -o strip.png\n"
-        "  strata strip --scene terrain --columns \"none; N=2; N=10\" --crop 600,330,640,360 --reference N=10 --rmse\n"
+        "  strata strip --scene hills --columns \"none; N=2; N=10\" --crop 600,330,640,360 --reference N=10 --rmse\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line, scene or picture, 129, 130 or 143 "
         "interrupted.");
     command->action([request, command] {

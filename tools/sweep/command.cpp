@@ -10,7 +10,6 @@
 #include "tools/cli/shared_options.h"
 #include "tools/cli/standard_output.h"
 #include "tools/sweep/job.h"
-#include "tools/sweep/render.h"
 #include "tools/sweep/results.h"
 #include "tools/sweep/sheet.h"
 #include "tools/sweep/tables.h"
@@ -32,34 +31,25 @@ void report(const Job& job, const Results& results) {
     cli::print_out(text);
 }
 
-Ledger ledger_of(const Job& job) {
-    const std::filesystem::path file = job.folder / kJsonFile;
-    const std::optional<Ledger> ledger = read_ledger(file);
-    if (!ledger && !job.quiet) {
-        cli::print_out(fmt::format("damaged  {}: it cannot be read; the times of pictures that are kept are lost\n",
-                                   file.string()));
-    }
-    return ledger.value_or(Ledger{});
+std::vector<const Picture*> pictures_of(const Job& job) {
+    std::vector<const Picture*> pictures;
+    for (const Cell& cell : job.cells) pictures.push_back(&cell.picture);
+    for (const Reference& reference : job.references)
+        for (const Picture& half : reference.halves) pictures.push_back(&half);
+    return pictures;
 }
 
 int sweep_command(const Request& request) {
     const parallel::CancelToken& cancel = cli::cancel_by_signals();
     const Job job = prepare_sweep(request);
-    Ledger ledger = ledger_of(job);
+    job::Ledger ledger = job::ledger_of(job.folder / kJsonFile, job.quiet);
     cli::PlannedFiles files;
     for (const char* file : {kSheetFile, kCsvFile}) files.plan(job.folder / file);
-    const Outcome outcome = render_sweep(files, job, ledger, cancel);
-    if (outcome.cancelled) {
-        if (!job.quiet)
-            cli::print_out(fmt::format("stopped  with {} of {} pictures; the same command goes on from there\n",
-                                       outcome.kept + outcome.rendered, job.cells.size() + 2 * job.references.size()));
-        return cli::exit_code_of(true);
-    }
-    if (outcome.failed > 0) {
-        cli::print_error(fmt::format("{} of {} pictures are there; the same command goes on from there",
-                                     outcome.kept + outcome.rendered, job.cells.size() + 2 * job.references.size()));
-        return cli::kExitRuntime;
-    }
+    const std::vector<const Picture*> pictures = pictures_of(job);
+    const job::Outcome outcome = job::render_missing(
+        {job.folder, job.threads, job.quiet}, pictures, ledger, [&] { write_costs(files, job, ledger); }, cancel);
+    if (!outcome.is_whole(pictures.size(), job.quiet))
+        return outcome.cancelled ? cli::exit_code_of(true) : cli::kExitRuntime;
     const Results results = evaluate_sweep(files, job);
     write_tables(files, job, ledger, results);
     const std::filesystem::path sheet = job.folder / kSheetFile;
@@ -112,7 +102,7 @@ void add_command(cli::Command& program) {
         "for each filter and scene, since another order m (or any key but N, estimator, seed and colours) has another\n"
         "ideal picture; `super` is held against order 1, `none` against the filter of its row. The reference's own\n"
         "RMSE is half that between its halves; errors within 3 times of it are marked *.\n"
-        "  strata sweep terrain --size 320x180 --N 1,2,3,10 --m 1,4,15 -o sweep\n"
+        "  strata sweep hills --size 320x180 --N 1,2,3,10 --m 1,4,15 -o sweep\n"
         "  strata sweep wheel --rows seed=1,2,3 --columns estimator=stratified,sobol --reference none\n"
         "Exit codes: 0 done, 1 failed on the way, 2 wrong command line or scene, 129, 130 or 143 interrupted.");
     command->action([request] { return sweep_command(*request); });

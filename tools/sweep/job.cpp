@@ -16,6 +16,7 @@
 #include "src/scene/validate.h"
 #include "tools/cli/errors.h"
 #include "tools/job/foreign_picture.h"
+#include "tools/report/folder.h"
 
 namespace strata::tools::sweep {
 
@@ -34,7 +35,7 @@ void apply(scene::Scene& scene, const Axis& axis, std::size_t value) {
 
 Picture make_picture(std::string file, const scene::Scene& scene, const film::Rect& window) {
     const job::PictureJob job{scene, window};
-    return {job, std::move(file), job.metadata("float")};
+    return {job, std::move(file), job.metadata("float"), job.float_exr()};
 }
 
 film::Rect window_of(const Request& request, const scene::Film& film) {
@@ -164,10 +165,7 @@ void read_reference(const Request& request, Job& job) {
 }
 
 void make_folder(const Job& job) {
-    std::error_code error;
-    fs::create_directories(job.folder, error);
-    if (error)
-        throw image::ImageError(fmt::format("cannot make the folder \"{}\": {}", job.folder.string(), error.message()));
+    report::make_folder(job.folder);
     for (const char* file : {kSheetFile, kCsvFile, kJsonFile}) image::check_replaceable(job.folder / file);
     for (const Cell& cell : job.cells) image::check_writable(job.folder / cell.picture.file);
     for (const Reference& reference : job.references) {

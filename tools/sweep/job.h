@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "src/image/metadata.h"
 #include "src/image/picture.h"
 #include "tools/cli/scene_argument.h"
-#include "tools/job/picture_job.h"
+#include "tools/job/picture_folder.h"
 #include "tools/sweep/axes.h"
 
 namespace strata::tools::sweep {
@@ -27,11 +26,7 @@ struct Request {
     bool quiet = false;
 };
 
-// A picture that the sweep renders, unless its file is there already.
-struct Picture : job::PictureJob {
-    std::string file;          // name in the sweep's folder
-    image::Metadata metadata;  // what makes a file this picture
-};
+using Picture = job::FolderPicture;
 
 struct Cell {
     std::size_t row = 0, column = 0;

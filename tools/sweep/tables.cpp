@@ -2,21 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "noise/simd_target.h"
 #include "src/scene/enum_names.h"
 #include "src/scene/needs.h"
 #include "tools/cli/text_file.h"
-#include "tools/report/csv.h"
 #include "tools/report/json.h"
+#include "tools/report/table.h"
 
 namespace strata::tools::sweep {
 
 namespace {
 
-using report::csv_cell;
 using report::Json;
+using report::number;
 
 void write_text(cli::PlannedFiles& files, const std::filesystem::path& path, const std::string& text) {
     write_if_changed(files, path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
@@ -36,13 +34,6 @@ Json sampling_json(const scene::Sampling& sampling) {
             {"seed", sampling.seed}};
 }
 
-Json cost_json(const std::optional<PictureCost>& cost) {
-    if (!cost) return nullptr;
-    return {
-        {"rays", cost->rays},       {"shadow_rays", cost->shadow_rays}, {"noise_evaluations", cost->noise_evaluations},
-        {"seconds", cost->seconds}, {"cpu_seconds", cost->cpu_seconds}, {"threads", cost->threads}};
-}
-
 Json error_json(const Job& job, const Results& results, std::size_t cell) {
     if (!results.cells[cell]) return nullptr;
     const image::Comparison& c = *results.cells[cell];
@@ -58,7 +49,7 @@ Json error_json(const Job& job, const Results& results, std::size_t cell) {
     return json;
 }
 
-Json sweep_json(const Job& job, const Ledger& ledger, const Results& results) {
+Json sweep_json(const Job& job, const job::Ledger& ledger, const Results& results) {
     Json references = Json::array();
     for (std::size_t r = 0; r < job.references.size(); ++r) {
         const Reference& reference = job.references[r];
@@ -74,13 +65,14 @@ Json sweep_json(const Job& job, const Ledger& ledger, const Results& results) {
         const film::Rect& w = picture.window;
         Json settings = Json::object();
         for (const auto& [key, value] : job.cells[i].settings) settings[key] = value;
+        const auto cost = job::find_cost(ledger, picture.file, picture.metadata);
         cells.push_back({{"file", picture.file},
                          {"row", job.cells[i].row},
                          {"column", job.cells[i].column},
                          {"settings", settings},
                          {"sampling", sampling_json(picture.scene.sampling)},
                          {"window", {w.x0, w.y0, w.x1, w.y1}},
-                         {"cost", cost_json(find_cost(ledger, picture.file, picture.metadata))},
+                         {"cost", cost ? job::cost_json(*cost) : Json()},
                          {"error", error_json(job, results, i)}});
     }
     return {{"scene", job.loaded.name},
@@ -90,42 +82,44 @@ Json sweep_json(const Job& job, const Ledger& ledger, const Results& results) {
             {"columns", axis_json(job.axes.columns)},
             {"references", references},
             {"cells", cells},
-            {"costs", to_json(ledger)}};
+            {"costs", job::to_json(ledger)}};
 }
 
-std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
-
-std::string csv_errors(const Job& job, const Results& results, std::size_t cell) {
-    const auto& comparison = results.cells[cell];
-    std::string line;
-    if (!comparison) return ",,,,,,,,";
-    const image::Comparison& c = *comparison;
-    for (const double value :
-         {c.rmse, c.channel_rmse[0], c.channel_rmse[1], c.channel_rmse[2], c.relative_rmse, c.max_abs, c.percentile99})
-        line += fmt::format(",{}", csv_number(value));
-    if (job.references.empty()) return fmt::format("{},,", line);
-    return line + fmt::format(",{},{}", csv_number(results.reference_errors[job.cells[cell].reference]),
-                              results.is_near_reference(job, cell) ? "yes" : "no");
+// Empty where nothing is known.
+Json csv_errors(const Job& job, const Results& results, std::size_t cell) {
+    const auto& found = results.cells[cell];
+    const image::Comparison c = found.value_or(image::Comparison{});
+    const auto known = [&](double value) { return number(value, found.has_value()); };
+    const bool has_reference = found && !job.references.empty();
+    const auto reference = [&] { return results.reference_errors[job.cells[cell].reference]; };
+    return {
+        {"rmse", known(c.rmse)},
+        {"rmse_r", known(c.channel_rmse[0])},
+        {"rmse_g", known(c.channel_rmse[1])},
+        {"rmse_b", known(c.channel_rmse[2])},
+        {"relative_rmse", known(c.relative_rmse)},
+        {"max_abs", known(c.max_abs)},
+        {"percentile99", known(c.percentile99)},
+        {"reference_own_rmse", has_reference ? number(reference()) : Json()},
+        {"near_reference_error", has_reference ? Json(results.is_near_reference(job, cell) ? "yes" : "no") : Json()}};
 }
 
-std::string csv(const Job& job, const Ledger& ledger, const Results& results) {
-    std::string text = "file";
-    for (const auto& [key, value] : job.cells.front().settings) text += fmt::format(",{}", csv_cell(key));
-    text +=
-        ",samples_a_pixel,rays,shadow_rays,noise_evaluations,seconds,cpu_seconds,rmse,rmse_r,rmse_g,rmse_b,relative_"
-        "rmse,max_abs,percentile99,reference_own_rmse,near_reference_error\n";
+std::string csv(const Job& job, const job::Ledger& ledger, const Results& results) {
+    std::vector<Json> rows;
     for (std::size_t i = 0; i < job.cells.size(); ++i) {
         const Picture& picture = job.cells[i].picture;
-        text += csv_cell(picture.file);
-        for (const auto& [key, value] : job.cells[i].settings) text += fmt::format(",{}", csv_cell(value));
-        text += fmt::format(",{}", scene::samples_a_pixel(picture.scene.sampling));
-        const auto cost = find_cost(ledger, picture.file, picture.metadata);
-        text += cost ? fmt::format(",{},{},{},{},{}", cost->rays, cost->shadow_rays, cost->noise_evaluations,
-                                   cost->seconds, cost->cpu_seconds)
-                     : ",,,,,";
-        text += fmt::format("{}\n", csv_errors(job, results, i));
+        Json row = {{"file", picture.file}};
+        for (const auto& [key, value] : job.cells[i].settings) row[key] = value;
+        row["samples_a_pixel"] = scene::samples_a_pixel(picture.scene.sampling);
+        const auto cost = job::find_cost(ledger, picture.file, picture.metadata);
+        const Json costs = job::cost_json(cost.value_or(job::PictureCost{}));
+        for (const auto& [name, value] : costs.items()) {
+            if (name != "threads") row[name] = cost ? value : Json();
+        }
+        row.update(csv_errors(job, results, i));
+        rows.push_back(std::move(row));
     }
-    return text;
+    return report::csv_of(rows);
 }
 
 }  // namespace
@@ -139,11 +133,11 @@ void write_if_changed(cli::PlannedFiles& files, const std::filesystem::path& pat
     if (!same) files.write_made(path, [&] { return bytes; });
 }
 
-void write_costs(cli::PlannedFiles& files, const Job& job, const Ledger& ledger) {
-    write_text(files, job.folder / kJsonFile, report::text_of({{"unfinished", true}, {"costs", to_json(ledger)}}));
+void write_costs(cli::PlannedFiles& files, const Job& job, const job::Ledger& ledger) {
+    write_text(files, job.folder / kJsonFile, report::text_of({{"unfinished", true}, {"costs", job::to_json(ledger)}}));
 }
 
-void write_tables(cli::PlannedFiles& files, const Job& job, const Ledger& ledger, const Results& results) {
+void write_tables(cli::PlannedFiles& files, const Job& job, const job::Ledger& ledger, const Results& results) {
     write_text(files, job.folder / kCsvFile, csv(job, ledger, results));
     write_text(files, job.folder / kJsonFile, report::text_of(sweep_json(job, ledger, results)));
 }

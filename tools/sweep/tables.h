@@ -5,8 +5,8 @@
 #include <span>
 
 #include "tools/cli/planned_files.h"
+#include "tools/job/ledger.h"
 #include "tools/sweep/job.h"
-#include "tools/sweep/ledger.h"
 #include "tools/sweep/results.h"
 
 namespace strata::tools::sweep {
@@ -16,9 +16,9 @@ void write_if_changed(cli::PlannedFiles& files, const std::filesystem::path& pat
                       std::span<const unsigned char> bytes);
 
 // sweep.json of a sweep that is not finished: the costs so far.
-void write_costs(cli::PlannedFiles& files, const Job& job, const Ledger& ledger);
+void write_costs(cli::PlannedFiles& files, const Job& job, const job::Ledger& ledger);
 
 // Both tables. Equal sweeps give equal tables, apart from seconds, cpu_seconds and threads.
-void write_tables(cli::PlannedFiles& files, const Job& job, const Ledger& ledger, const Results& results);
+void write_tables(cli::PlannedFiles& files, const Job& job, const job::Ledger& ledger, const Results& results);
 
 }  // namespace strata::tools::sweep

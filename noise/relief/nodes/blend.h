@@ -3,6 +3,8 @@
 #ifndef STRATA_NOISE_RELIEF_BLEND_H_
 #define STRATA_NOISE_RELIEF_BLEND_H_
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +26,11 @@ struct Blend {
         to_list.number("to", to, -1e6, 1e6, "of the mask", "where the second has taken over; may be below from");
     }
 
-    std::string problem() const { return from == to ? "from and to are equal" : ""; }
+    // Closer together, the mask's rounding in float would be all of it.
+    std::string problem() const {
+        const double apart = std::abs(to - from), size = std::max(std::abs(from), std::abs(to));
+        return apart >= 1e-5 * size && apart > 0.0 ? "" : "from and to are nearer than 1e-5 of their size";
+    }
 
     std::vector<Octave> octaves(int /*dimensions*/) const { return {}; }
 };
@@ -33,7 +39,7 @@ struct Blend {
 #endif
 
 #ifdef STRATA_RELIEF_FORMULAS
-#include "noise/relief/curves-inl.h"
+#include "noise/relief/steps-inl.h"
 #if defined(STRATA_NOISE_RELIEF_BLEND_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STRATA_NOISE_RELIEF_BLEND_INL_H_
 #undef STRATA_NOISE_RELIEF_BLEND_INL_H_

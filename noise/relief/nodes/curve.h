@@ -40,7 +40,8 @@ struct Curve {
     void prepare() {
         if (!problem().empty()) return;
         std::vector<HermiteKnot> knots;
-        for (std::size_t i = 0; i < from.size(); ++i) knots.push_back({from[i], to[i], 0.0});
+        // The pieces begin at floats: slopes are chosen for the curve that is drawn.
+        for (std::size_t i = 0; i < from.size(); ++i) knots.push_back({static_cast<float>(from[i]), to[i], 0.0});
         set_monotone_slopes(knots);
         table = make_hermite(knots);
     }

@@ -67,6 +67,9 @@ struct Dunes {
 
     void prepare() { table = dune_profile(lee, brink); }
 
+    // Trains of dunes a unit, of which a place in double has to tell which it is in.
+    double repeats() const { return 1.0 / wavelength; }
+
     // Those of the bends, then the one of the height, whose cells are half as large as the first bend's.
     std::vector<Octave> octaves(int /*dimensions*/) const {
         constexpr std::uint64_t kHeightStream = 0xA0761D6478BD642Fu;
@@ -105,7 +108,7 @@ HWY_INLINE typename Numbers::Number relief_of(const Dunes& node, Numbers& a, con
     const std::size_t last = a.octaves() - 1;
     auto phase = a.along(at, per * std::sin(turn), per * std::cos(turn), 0.0, true);
     for (std::size_t k = 0; k < last; ++k) {
-        phase = a.plus(phase, a.scaled(a.octave(k, at), a.amplitude(k) / a.peak()));
+        phase = a.plus(phase, a.octave(k, at, a.amplitude(k) / a.peak()));
     }
     const auto profile = a.curved(PeriodicCurve{{node.table}}, phase);
     const double swing = 0.5 * node.vary * node.height;

@@ -44,7 +44,7 @@ HWY_INLINE typename Numbers::Number relief_of(const Fbm&, Numbers& a, const type
     auto sum = a.begin_sum();
     for (std::size_t k = 0; k < a.octaves(); ++k) {
         if (!a.sees(sum, k, at, -a.amplitude_from(k) * a.peak(), a.amplitude_from(k) * a.peak())) break;
-        a.add(sum, a.scaled(a.octave(k, at), a.amplitude(k)));
+        a.add(sum, a.octave(k, at, a.amplitude(k)));
     }
     return a.total(sum);
 }

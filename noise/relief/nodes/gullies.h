@@ -25,6 +25,9 @@ struct Gullies {
     static constexpr int kFewestInputs = 1, kMostInputs = 2;
     static constexpr bool kPlaneOnly = true;  // its slopes are those of a height field
 
+    // Its slope is that of differences: at a point and at one beside it on either axis.
+    static constexpr std::size_t kReadsOfLastInput = 3;
+
     // c, e, and the step of the differences in sizes of the first octave.
     static constexpr double kFlat = 0.08, kEven = 0.25, kStep = 0.15;
 
@@ -70,16 +73,16 @@ template <class Numbers>
 HWY_INLINE typename Numbers::Number relief_of(const Gullies& node, Numbers& a, const typename Numbers::Domain& at) {
     const auto base = a.input(0, at);
     auto carved = a.begin_sum();
-    if (!a.sees(carved, 0, at, -a.amplitude_from(0) * node.steepest, 0.0)) return a.plus(base, a.total(carved));
+    if (!a.sees_stripe(carved, 0, at, -a.amplitude_from(0) * node.steepest, 0.0)) return a.plus(base, a.total(carved));
     const double step = Gullies::kStep * node.size;
     const std::size_t guide = a.inputs() - 1;
     const auto from = a.scaled(guide == 0 ? base : a.input(guide, at), -1.0 / step);
     auto slope_x = a.plus(a.scaled(a.input(guide, a.shifted(at, 0, step)), 1.0 / step), from);
     auto slope_z = a.plus(a.scaled(a.input(guide, a.shifted(at, 1, step)), 1.0 / step), from);
     for (std::size_t k = 0; k < a.octaves(); ++k) {
-        if (!a.sees(carved, k, at, -a.amplitude_from(k) * node.steepest, 0.0)) break;
-        const auto steep = a.scaled(a.norm(slope_x, slope_z, Gullies::kFlat), 1.0 / node.steepest);
-        const auto depth = a.scaled(a.curved(SoftClip{}, steep), node.steepest * a.amplitude(k));
+        if (!a.sees_stripe(carved, k, at, -a.amplitude_from(k) * node.steepest, 0.0)) break;
+        const auto steep = a.norm(slope_x, slope_z, Gullies::kFlat);
+        const auto depth = a.scaled(a.curved(SoftClip{1.0 / node.steepest}, steep), node.steepest * a.amplitude(k));
         const auto [across_x, across_z] = a.unit(a.scaled(slope_z, -1.0), slope_x, Gullies::kFlat);
         const auto [wave_c, wave_s] = a.stripe(k, at, across_x, across_z, node.bands);
         const auto [even_c, even_s] = a.unit(wave_c, wave_s, Gullies::kEven);

@@ -33,7 +33,7 @@ struct Ramp {
 #endif
 
 #ifdef STRATA_RELIEF_FORMULAS
-#include "noise/relief/curves-inl.h"
+#include "noise/relief/steps-inl.h"
 #if defined(STRATA_NOISE_RELIEF_RAMP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STRATA_NOISE_RELIEF_RAMP_INL_H_
 #undef STRATA_NOISE_RELIEF_RAMP_INL_H_

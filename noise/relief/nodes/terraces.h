@@ -31,7 +31,7 @@ struct Terraces {
 #endif
 
 #ifdef STRATA_RELIEF_FORMULAS
-#include "noise/relief/curves-inl.h"
+#include "noise/relief/steps-inl.h"
 #if defined(STRATA_NOISE_RELIEF_TERRACES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STRATA_NOISE_RELIEF_TERRACES_INL_H_
 #undef STRATA_NOISE_RELIEF_TERRACES_INL_H_

@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -17,6 +16,7 @@
 
 #include "src/estimate/estimator.h"
 #include "src/film/film.h"
+#include "src/parallel/cpu_clock.h"
 #include "src/scene/toml_reader.h"
 #include "tools/bench/peers/height_mesh.h"
 
@@ -35,12 +35,6 @@ bool count_memory(void*, ssize_t bytes, bool) {
     while (now > peak && !embree_peak.compare_exchange_weak(peak, now)) {
     }
     return true;
-}
-
-double cpu_seconds() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 struct Directions {
@@ -72,12 +66,12 @@ class Bench {
     Tally measure(const film::Rect& window) {
         Tally tally;
         make_rays(window);
-        const double start = cpu_seconds();
+        const double start = parallel::thread_cpu_seconds();
         intersect_one();
-        tally.one_s = cpu_seconds() - start;
-        const double middle = cpu_seconds();
+        tally.one_s = parallel::thread_cpu_seconds() - start;
+        const double middle = parallel::thread_cpu_seconds();
         intersect_sixteen();
-        tally.sixteen_s = cpu_seconds() - middle;
+        tally.sixteen_s = parallel::thread_cpu_seconds() - middle;
         tally.rays = distance_.size();
         for (std::size_t i = 0; i < distance_.size(); ++i) {
             tally.hits += std::isfinite(distance_[i]) ? 1 : 0;

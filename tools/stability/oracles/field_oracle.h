@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "tools/stability/oracles/noise_oracle.h"
@@ -105,9 +106,9 @@ class FieldOracle {
                 return std::sqrt(Real(p[0]) * Real(p[0]) + Real(p[1]) * Real(p[1]) + Real(p[2]) * Real(p[2])) -
                        Real(shape_.radius) + lift;
             case Kind::isosurface:
-                break;
+                return Real(shape_.threshold) + lift;
         }
-        return Real(shape_.threshold) + lift;
+        throw std::logic_error("a kind of solid without a base in the oracle");
     }
 
     // The sign of f at p and how far it is certain along the line p + s direction (unit length). Adds octaves, coarsest
@@ -115,13 +116,24 @@ class FieldOracle {
     // whose Lipschitz constant along the line is L_K, has come within `remaining` of 0.
     Probe probe(const Vec& p, const Vec& direction) const {
         const double noise_speed = shape_.kind == Kind::terrain ? std::hypot(direction[0], direction[2]) : 1.0;
-        double slope = shape_.kind == Kind::planet       ? 1.0
-                       : shape_.kind == Kind::isosurface ? 0.0
-                                                         : std::abs(direction[1]);
-        return probe_with(p, slope, noise_speed);
+        return probe_with(p, base_slope(direction), noise_speed);
     }
 
   private:
+    // How fast the base changes along the line, at most.
+    double base_slope(const Vec& direction) const {
+        switch (shape_.kind) {
+            case Kind::terrain:
+            case Kind::hyperterrain:
+                return std::abs(direction[1]);
+            case Kind::planet:
+                return 1.0;
+            case Kind::isosurface:
+                return 0.0;
+        }
+        throw std::logic_error("a kind of solid without a slope in the oracle");
+    }
+
     double max_value() const { return shape_.kind == Kind::terrain ? kMaxValue2 : kMaxValue3; }
     double max_slope() const { return shape_.kind == Kind::terrain ? kMaxSlope2 : kMaxSlope3; }
 

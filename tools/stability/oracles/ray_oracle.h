@@ -169,8 +169,9 @@ Verdict judge_ray(const RayFunction& f, const Span& span, const Delta& delta, co
 }
 
 // The ray p + t direction, t in [0, limit], direction of unit length, against a surface.
-template <class Delta>
-Verdict judge_ray(const FieldOracle& field, const Vec& p, const Vec& direction, double limit, const Delta& delta,
+// `field` is a FieldOracle, or has its probe and shape.
+template <class Field, class Delta>
+Verdict judge_ray(const Field& field, const Vec& p, const Vec& direction, double limit, const Delta& delta,
                   const Claim& claim, long most_probes = std::numeric_limits<long>::max()) {
     const auto f = [&](double t) {
         return field.probe({p[0] + t * direction[0], p[1] + t * direction[1], p[2] + t * direction[2]}, direction);

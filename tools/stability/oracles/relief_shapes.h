@@ -17,8 +17,9 @@ inline double hermite(double x0, double y0, double m0, double x1, double y1, dou
     return y0 * u * u * (1.0 + 2.0 * t) + y1 * t * t * (3.0 - 2.0 * t) + w * m0 * t * u * u - w * m1 * t * t * u;
 }
 
-// By Hermite's basis, the knots' slopes by Fritsch and Butland.
-inline double through_knots(const std::vector<double>& x, const std::vector<double>& y, double v) {
+// By Hermite's basis through knots at floats, their slopes by Fritsch and Butland.
+inline double through_knots(const std::vector<float>& places, const std::vector<double>& y, double v) {
+    const std::vector<double> x(places.begin(), places.end());
     const std::size_t last = x.size() - 1;
     const auto chord = [&](std::size_t i) { return (y[i + 1] - y[i]) / (x[i + 1] - x[i]); };
     const auto slope = [&](std::size_t i) {
@@ -28,12 +29,11 @@ inline double through_knots(const std::vector<double>& x, const std::vector<doub
         const double h0 = x[i] - x[i - 1], h1 = x[i + 1] - x[i], w0 = 2.0 * h1 + h0, w1 = h1 + 2.0 * h0;
         return (w0 + w1) / (w0 / chord(i - 1) + w1 / chord(i));
     };
-    const auto place = [&](std::size_t i) { return static_cast<double>(static_cast<float>(x[i])); };
-    if (v <= place(0)) return y.front() + slope(0) * (v - place(0));
-    if (v >= place(last)) return y.back() + slope(last) * (v - place(last));
+    if (v <= x.front()) return y.front() + slope(0) * (v - x.front());
+    if (v >= x.back()) return y.back() + slope(last) * (v - x.back());
     std::size_t i = 0;
-    while (v > place(i + 1)) ++i;
-    return hermite(place(i), y[i], slope(i), place(i + 1), y[i + 1], slope(i + 1), v);
+    while (v > x[i + 1]) ++i;
+    return hermite(x[i], y[i], slope(i), x[i + 1], y[i + 1], slope(i + 1), v);
 }
 
 // The windward side, the slip face and its foot, with parabolas about the brink, between places that are floats.

@@ -166,8 +166,7 @@ class ReliefValues {
     }
 
     double read(const std::string& name, const noise::Curve& node, const Vec& p) const {
-        // The points' places are taken as floats; their slopes are those of the places as they are written.
-        return through_knots(node.from, node.to, input(name, 0, p));
+        return through_knots({node.from.begin(), node.from.end()}, node.to, input(name, 0, p));
     }
 
     double read(const std::string& name, const noise::Terraces& node, const Vec& p) const {

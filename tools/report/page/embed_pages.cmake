@@ -1,0 +1,10 @@
+# Puts the pages, their style and their scripts into strata_tools, so that the program needs no path to them.
+set(page_texts_in ${CMAKE_CURRENT_LIST_DIR}/page_texts.cpp.in)
+set(tools_folder ${CMAKE_CURRENT_LIST_DIR}/../..)
+foreach(text report/page/page.css figures/page/page.html figures/page/page.js gallery/page/page.html)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${tools_folder}/${text})
+  string(REPLACE "/" "_" name ${text})
+  file(READ ${tools_folder}/${text} ${name})
+endforeach()
+configure_file(${page_texts_in} ${PROJECT_BINARY_DIR}/generated/page_texts.cpp @ONLY)
+target_sources(strata_tools PRIVATE ${PROJECT_BINARY_DIR}/generated/page_texts.cpp)
