@@ -35,7 +35,7 @@ class BsplineWeights {
         const double shift = even ? (right_half ? -0.5 : 0.5) : 0.0;
         const double scaled = (static_cast<double>(fraction) + shift) * cells_;
         const int cell = static_cast<int>(scaled);
-        return {(even & right_half ? 1 : 0) - reach(), &cubics_[4 * stride() * static_cast<std::size_t>(cell)],
+        return {((even & right_half) ? 1 : 0) - reach(), &cubics_[4 * stride() * static_cast<std::size_t>(cell)],
                 scaled - cell};
     }
 

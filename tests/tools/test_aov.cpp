@@ -4,6 +4,7 @@
 
 #include "tools/cli/errors.h"
 #include "tools/job/aov.h"
+#include "tools/job/cost_picture.h"
 
 using namespace strata::tools::cli;
 using namespace strata::tools::job;

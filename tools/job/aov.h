@@ -1,15 +1,11 @@
-// Channels beside a picture's colour, as the command line asks for them; and pictures of what pixels cost, to look at.
+// Channels beside a picture's colour, as the command line asks for them.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "src/estimate/estimator.h"
-#include "src/film/film.h"
-#include "src/image/canvas.h"
-#include "src/image/metadata.h"
 #include "src/integrate/channels.h"
 #include "tools/cli/scene_argument.h"
 
@@ -42,28 +38,5 @@ std::string description_of(const integrate::Channel& channel);
 
 // Whether a picture in false colour is drawn of it as well.
 bool is_drawn(const integrate::Channel& channel);
-
-// A small picture of a large one's costs, gathered strip by strip: blocks of k x k pixels are averaged, with the least
-// k that leaves no side longer than kLongestCostSide.
-inline constexpr int kLongestCostSide = 1920;
-
-class CostPicture {
-  public:
-    // The first component of an AOV; strips hold the values that it is one of.
-    CostPicture(const integrate::ChannelSet::Entry& aov, const film::Rect& window);
-
-    void add(const film::Film& strip);
-
-    // In false colour, with a scale that begins at 0.
-    image::Canvas draw(const std::string& title) const;
-
-  private:
-    integrate::ChannelSet::Entry aov_;
-    film::Rect window_;
-    int block_;
-    int width_, height_;  // of the small picture
-    std::vector<double> sum_;
-    double whole_sum_ = 0;
-};
 
 }  // namespace strata::tools::job

@@ -12,6 +12,7 @@
 #include "src/image/metadata.h"
 #include "src/image/output_file.h"
 #include "src/image/picture_stream.h"
+#include "tools/job/cost_picture.h"
 #include "tools/job/still_journal.h"
 #include "tools/render/job.h"
 
