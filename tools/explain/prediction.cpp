@@ -14,6 +14,7 @@
 #include "src/scene/needs.h"
 #include "tools/explain/count_estimate.h"
 #include "tools/explain/pilot.h"
+#include "tools/job/cost_picture.h"
 
 namespace strata::tools::explain {
 
